@@ -1,0 +1,63 @@
+"""The bed as a line of points, and the layers of particles along it."""
+
+import numpy as np
+
+
+def elevation(bed, x):
+    """Elevation of the bed at x, both ends carried on with the slope they have [m].
+
+    Parameters
+    ----------
+    bed : sequence of (x, z) [m], x ascending
+    x : array_like [m]
+    """
+    points = np.asarray(bed, float)
+    x = np.asarray(x, float)
+    z = np.interp(x, points[:, 0], points[:, 1])
+    last = _slope(points[-2], points[-1])
+    return z + np.where(x > points[-1, 0], last * (x - points[-1, 0]), 0.0)
+
+
+def slope(bed, x):
+    """Slope dz/dx of the bed at x [-]."""
+    points = np.asarray(bed, float)
+    inside = np.searchsorted(points[:, 0], x, side="right") - 1
+    inside = np.clip(inside, 0, len(points) - 2)
+    steep = np.diff(points[:, 1]) / np.diff(points[:, 0])
+    return np.where(np.asarray(x) < points[0, 0], 0.0, steep[inside])
+
+
+def extended(bed, before, after):
+    """The bed carried on: level before the first point, with its slope after the last."""
+    points = np.asarray(bed, float)
+    ahead = points[-1] + after * np.array([1.0, _slope(points[-2], points[-1])])
+    behind = points[0] - [before, 0.0]
+    return np.vstack([behind, points, ahead])
+
+
+def layer(points, depth, spacing):
+    """Particles at equal distances along the line `depth` below the bed, (n, 2) [m].
+
+    The line is offset along the normals, with mitred corners; each straight piece is divided
+    into intervals as close to the spacing as they can be, a particle in the middle of each.
+    """
+    line = _offset(points, depth)
+    pieces = []
+    for start, end in zip(line[:-1], line[1:], strict=True):
+        n = max(round(float(np.hypot(*(end - start))) / spacing), 1)
+        pieces.append(start + np.outer((np.arange(n) + 0.5) / n, end - start))
+    return np.vstack(pieces)
+
+
+def _slope(a, b):
+    return (b[1] - a[1]) / (b[0] - a[0])
+
+
+def _offset(points, depth):
+    """The line of points moved `depth` downwards along its normals."""
+    step = np.diff(points, axis=0)
+    normal = np.column_stack([step[:, 1], -step[:, 0]]) / np.hypot(*step.T)[:, None]
+    mitre = np.vstack([normal[:1], normal[:-1] + normal[1:], normal[-1:]])
+    before = np.vstack([normal[:1], normal])
+    mitre /= np.sum(mitre * before, axis=1)[:, None]
+    return points + depth * mitre

@@ -1,0 +1,45 @@
+"""The conjugate gradient method with a preconditioner."""
+
+import math
+
+import numpy as np
+
+from mpslab.kernels.sparse import axpy, dot, xpay
+from mpslab.sparse import SolverReport
+
+
+def conjugate_gradient(system, x, precondition, tolerance, max_iterations, replaced=0):
+    """Solve A x = b from the given x, in place.
+
+    Parameters
+    ----------
+    system : mpslab.sparse.PressureSystem
+    x : (m,) float64
+        Start, and solution at the end.
+    precondition : callable
+        ``precondition(r, z)`` writes M^-1 r to z.
+    tolerance : float
+        Of |b - A x| / |b|.
+    max_iterations : int
+    replaced : int
+        Handed through to the report.
+    """
+    b_norm = math.sqrt(dot(system.right, system.right))
+    if b_norm == 0.0:
+        x[:] = 0.0
+        return SolverReport(0, 0.0, True, replaced)
+    q, z = np.empty_like(x), np.empty_like(x)
+    r = system.right - system.multiply(x, q)
+    p, rho, iterations = np.zeros_like(x), 1.0, 0
+    residual = math.sqrt(dot(r, r)) / b_norm
+    while residual > tolerance and iterations < max_iterations:
+        precondition(r, z)
+        rho, rho_old = dot(r, z), rho
+        xpay(z, rho / rho_old if iterations else 0.0, p)
+        system.multiply(p, q)
+        alpha = rho / dot(p, q)
+        axpy(alpha, p, x)
+        axpy(-alpha, q, r)
+        residual = math.sqrt(dot(r, r)) / b_norm
+        iterations += 1
+    return SolverReport(iterations, residual, residual <= tolerance, replaced)

@@ -1,0 +1,209 @@
+"""Initial particles of a case: water, bed, end walls, piston, side walls.
+
+The cross-section (x, z) is laid out first and then repeated across the tank.  Water particles
+stand half a spacing off every boundary, wall particles half a spacing behind it.
+"""
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from mpslab import bed as beds
+from mpslab.particles import DUMMY, FLUID, PISTON, PISTON_DUMMY, WALL, make_particles
+
+CLOSEST = 0.7  # spacings: a wall particle nearer to the bed layers than this is left out
+
+
+def effective_length(case):
+    """Length of the tank in whole spacings [m]."""
+    return round(case.tank.length / case.particles.spacing) * case.particles.spacing
+
+
+def rows_across(case):
+    """Number of particles across the tank; 1 in 2-D."""
+    return max(round(case.tank.width / case.particles.spacing), 1)
+
+
+def period(case):
+    """Period across the tank [m], 0 when it is walled or 2-D."""
+    periodic = case.tank.periodic and case.tank.width > 0.0
+    return rows_across(case) * case.particles.spacing if periodic else 0.0
+
+
+def build_particles(case, backmost=0.0):
+    """Particles of a case at rest, with hydrostatic pressure.
+
+    Parameters
+    ----------
+    case : mpslab.parameters.Case
+    backmost : float [m]
+        Least displacement of the piston; the bed reaches that far behind it.
+    """
+    spacing = case.particles.spacing
+    water = _water_section(case)
+    solid, kind = _solid_section(case, backmost)
+    position, kinds = _repeat_across(case, water, solid, kind, backmost)
+    position[kinds == FLUID] += _jitter(case, np.count_nonzero(kinds == FLUID))
+    cell = np.floor(position / spacing + 1e-6)
+    order = np.lexsort((position[:, 2], cell[:, 1], cell[:, 0]))
+    particles = make_particles(position[order], kinds[order])
+    _set_hydrostatic(case, particles)
+    return particles
+
+
+def _jitter(case, n):
+    random = np.random.default_rng(case.particles.seed)
+    move = random.uniform(-1.0, 1.0, (n, 3)) * case.particles.jitter * case.particles.spacing
+    if case.tank.width == 0.0:
+        move[:, 1] = 0.0
+    return move
+
+
+def _columns(case, start, end):
+    """x of the particle columns between two places [m]."""
+    spacing = case.particles.spacing
+    return (np.arange(round(start / spacing), round(end / spacing)) + 0.5) * spacing
+
+
+def _stack(case, x, bottom, top):
+    """Particles of one column, from the bed up, none squeezed in: (n, 2) [m]."""
+    spacing = case.particles.spacing
+    ground = float(beds.elevation(case.tank.bed, x))
+    if case.particles.bed == "staircase":
+        ground = np.ceil(ground / spacing - 0.5) * spacing
+        first = max(ground, round(bottom / spacing) * spacing) + 0.5 * spacing
+    elif bottom > ground:
+        first = bottom + 0.5 * spacing
+    else:
+        lean = np.sqrt(1.0 + float(beds.slope(case.tank.bed, x)) ** 2)
+        first = ground + 0.5 * spacing * lean
+    n = max(round((top - (first - 0.5 * spacing)) / spacing), 0)
+    return np.column_stack([np.full(n, x), first + np.arange(n) * spacing])
+
+
+def _water_section(case):
+    """Water particles as (x, z, y from, y to) rows: boxes may fill a part of the width."""
+    width = case.tank.width
+    boxes = [(b.start, b.end) for b in case.water] or [
+        ((0.0, 0.0, -np.inf), (effective_length(case), width, case.tank.depth))
+    ]
+    rows = []
+    for start, end in boxes:
+        for x in _columns(case, start[0], min(end[0], effective_length(case))):
+            stack = _stack(case, x, start[2], end[2])
+            across = np.broadcast_to([start[1], end[1]], (len(stack), 2))
+            rows.append(np.hstack([stack, across]))
+    return np.vstack(rows) if rows else np.zeros((0, 4))
+
+
+def _solid_section(case, backmost):
+    """Bed, end walls and piston in the cross-section: (n, 2) [m] and kinds (n,)."""
+    layers, spacing = case.particles.layers, case.particles.spacing
+    behind = (layers + np.ceil(-backmost / spacing)) * spacing
+    build = _staircase if case.particles.bed == "staircase" else _smooth_bed
+    floor, floor_kind = build(case, behind)
+    left, left_kind = _end_wall(case, floor, -1)
+    right, right_kind = _end_wall(case, floor, 1)
+    if case.wavemaker.type != "none":
+        left_kind = np.where(left_kind == WALL, PISTON, PISTON_DUMMY)
+    kinds = np.concatenate([floor_kind, left_kind, right_kind])
+    return np.vstack([floor, left, right]), kinds
+
+
+def _smooth_bed(case, behind):
+    """Layers along the bed, the uppermost of wall particles."""
+    layers, spacing = case.particles.layers, case.particles.spacing
+    points = beds.extended(case.tank.bed, behind, layers * spacing)
+    rows = [beds.layer(points, (k + 0.5) * spacing, spacing) for k in range(layers)]
+    kinds = [np.full(len(r), DUMMY if k else WALL, np.int8) for k, r in enumerate(rows)]
+    outside = rows[0][:, 0] > effective_length(case) + spacing
+    kinds[0][outside] = DUMMY
+    return np.vstack(rows), np.concatenate(kinds)
+
+
+def _staircase(case, behind):
+    """Bed cut out of the lattice, in steps of one spacing (to compare with the smooth bed)."""
+    layers, spacing = case.particles.layers, case.particles.spacing
+    end = effective_length(case)
+    x = _columns(case, -behind, end + layers * spacing)
+    top = np.ceil(beds.elevation(case.tank.bed, x) / spacing - 0.5)
+    lowest = np.array([top[max(i - layers, 0) : i + layers + 1].min() for i in range(len(x))])
+    high = np.array([top[max(i - 1, 0) : i + 2].min() for i in range(len(x))])
+    rows, kinds = [], []
+    for i, place in enumerate(x):
+        level = np.arange(lowest[i] - layers, top[i])
+        rows.append(np.column_stack([np.full(len(level), place), (level + 0.5) * spacing]))
+        wall = (level >= high[i] - 1) & (place < end + spacing)
+        kinds.append(np.where(wall, WALL, DUMMY).astype(np.int8))
+    return np.vstack(rows), np.concatenate(kinds)
+
+
+def _end_wall(case, floor, side):
+    """Vertical layers at the seaward (-1) or landward (+1) end, standing on the bed."""
+    spacing, end = case.particles.spacing, effective_length(case)
+    rows, kinds = [], []
+    for k in range(case.particles.layers):
+        x = -(k + 0.5) * spacing if side < 0 else end + (k + 0.5) * spacing
+        stack = _stack(case, x, -np.inf, case.tank.height)
+        rows.append(stack)
+        kinds.append(np.full(len(stack), DUMMY if k else WALL, np.int8))
+    wall, kind = np.vstack(rows), np.concatenate(kinds)
+    free = cKDTree(floor).query(wall)[0] > CLOSEST * spacing
+    return wall[free], kind[free]
+
+
+def _repeat_across(case, water, solid, kind, backmost):
+    """Repeat the cross-section in y; add side walls where the tank has them."""
+    spacing, n = case.particles.spacing, rows_across(case)
+    flat = case.tank.width == 0.0
+    positions, kinds = [], []
+    walled = not (flat or case.tank.periodic)
+    layers = case.particles.layers if walled else 0
+    for row in range(-layers, n + layers):
+        y = 0.0 if flat else (row + 0.5) * spacing
+        outside = max(-row, row - n + 1)
+        if outside <= 0:
+            wet = flat | ((water[:, 2] < y) & (y < water[:, 3]))
+            _add(positions, kinds, water[wet, :2], FLUID, y)
+            _add(positions, kinds, solid, kind, y)
+        else:
+            side, side_kind = _side_wall(case, solid, kind, outside, backmost)
+            _add(positions, kinds, side, side_kind, y)
+    return np.vstack(positions), np.concatenate(kinds)
+
+
+def _side_wall(case, solid, kind, outside, backmost):
+    """One layer of a side wall: the whole section of the tank, and the solids beyond it."""
+    spacing, layers = case.particles.spacing, case.particles.layers
+    behind = np.ceil(-backmost / spacing) * spacing if case.wavemaker.type != "none" else 0.0
+    x = _columns(case, -behind - layers * spacing, effective_length(case) + layers * spacing)
+    section = np.vstack([_stack(case, place, -np.inf, case.tank.height) for place in x])
+    fixed = (kind == WALL) | (kind == DUMMY)
+    below = solid[:, 1] < beds.elevation(case.tank.bed, solid[:, 0])
+    floor = solid[fixed & below]
+    inside = (section[:, 0] > -behind - spacing) & (
+        section[:, 0] < effective_length(case) + spacing
+    )
+    first = outside == 1
+    kinds = np.where(inside & first, WALL, DUMMY)
+    floor_kind = np.where((kind[fixed & below] == WALL) & first, WALL, DUMMY)
+    return np.vstack([section, floor]), np.concatenate([kinds, floor_kind])
+
+
+def _add(positions, kinds, section, kind, y):
+    positions.append(np.column_stack([section[:, 0], np.full(len(section), y), section[:, 1]]))
+    kinds.append(np.broadcast_to(kind, len(section)).astype(np.int8))
+
+
+def _set_hydrostatic(case, particles):
+    """Start from the pressure of the water column above each particle."""
+    fluid = particles.fluid
+    if not fluid.any():
+        return
+    spacing = case.particles.spacing
+    column = np.floor(particles.position[:, 0] / spacing).astype(int)
+    column = np.clip(column, 0, round(effective_length(case) / spacing) - 1)
+    top = np.full(column.max() + 1, -np.inf)
+    np.maximum.at(top, column[fluid], particles.position[fluid, 2] + 0.5 * spacing)
+    depth = np.maximum(top[column] - particles.position[:, 2], 0.0)
+    weight = case.fluid.density * case.fluid.gravity
+    particles.pressure[:] = np.where(particles.carries_pressure, weight * depth, 0.0)

@@ -1,0 +1,1 @@
+"""Compiled loops over particles and neighbours: functions on bare arrays, nothing else."""

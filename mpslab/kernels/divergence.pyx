@@ -1,0 +1,46 @@
+"""Rates of compression, for the right-hand sides of the pressure equation."""
+from mpslab.kernels.pair cimport distance, weight, wrap
+
+
+def divergence(const double[:, ::1] position, const double[:, ::1] velocity,
+               const int[::1] indptr, const int[::1] indices, stencil, double[::1] out):
+    """<div u>_i = (Ds/n0) sum_j u_ij . r_ij w / r^2 over all neighbours [1/s]."""
+    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
+    cdef double factor = stencil.dim / stencil.n0
+    cdef double dx, dy, dz, r, total
+    cdef Py_ssize_t i, k, j
+    with nogil:
+        for i in range(indptr.shape[0] - 1):
+            total = 0.0
+            for k in range(indptr[i], indptr[i + 1]):
+                j = indices[k]
+                dx = position[j, 0] - position[i, 0]
+                dy = wrap(position[j, 1] - position[i, 1], width)
+                dz = position[j, 2] - position[i, 2]
+                r = distance(dx, dy, dz, floor)
+                total += ((velocity[j, 0] - velocity[i, 0]) * dx
+                          + (velocity[j, 1] - velocity[i, 1]) * dy
+                          + (velocity[j, 2] - velocity[i, 2]) * dz) * weight(r, radius) / (r * r)
+            out[i] = factor * total
+
+
+def density_rate(const double[:, ::1] position, const double[:, ::1] velocity,
+                 const int[::1] indptr, const int[::1] indices, stencil, double[::1] out):
+    """(Dn/Dt)_i = -sum_j (r_e/r^3) r_ij . u_ij over all neighbours (Khayyer & Gotoh 2009) [1/s]."""
+    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
+    cdef double dx, dy, dz, r, total
+    cdef Py_ssize_t i, k, j
+    with nogil:
+        for i in range(indptr.shape[0] - 1):
+            total = 0.0
+            for k in range(indptr[i], indptr[i + 1]):
+                j = indices[k]
+                dx = position[j, 0] - position[i, 0]
+                dy = wrap(position[j, 1] - position[i, 1], width)
+                dz = position[j, 2] - position[i, 2]
+                r = distance(dx, dy, dz, floor)
+                total += ((velocity[j, 0] - velocity[i, 0]) * dx
+                          + (velocity[j, 1] - velocity[i, 1]) * dy
+                          + (velocity[j, 2] - velocity[i, 2]) * dz
+                          ) * (1.0 if r < radius else 0.0) / (r * r * r)
+            out[i] = -radius * total

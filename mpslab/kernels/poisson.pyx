@@ -1,0 +1,79 @@
+"""Assembly of the Poisson equation of pressure."""
+from mpslab.kernels.pair cimport distance, has_pressure, wrap
+
+
+cdef inline double coefficient(double r, double radius, double one, double inverse,
+                               double cubic) noexcept nogil:
+    """Pair coefficient one + inverse/r + cubic/r^3 of the Laplacian, 0 outside the radius."""
+    return one + inverse / r + cubic / (r * r * r) if r < radius else 0.0
+
+
+def assemble(const double[:, ::1] position, const signed char[::1] kind, const int[::1] indptr,
+             const int[::1] indices, const int[::1] unknown, stencil, pair_terms, double scale,
+             int[::1] row, int[::1] column, double[::1] value, double[::1] diagonal,
+             double[::1] excess):
+    """Rows of  -scale <lap p>  for the particles with a number in `unknown` (others: -1).
+
+    Off-diagonal entries are -scale L(r_ij); the diagonal is the sum of scale L(r_ij) over all
+    neighbours that carry a pressure, so that free-surface particles act as p = 0 and walls as
+    dp/dn = 0.  `excess` is what a diagonal has above its row: the pull of the free surface.
+
+    row : (m + 1,) out; column, value : (entries,) out, long enough; diagonal, excess : (m,) out
+    """
+    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
+    cdef double one = pair_terms[0], inverse = pair_terms[1], cubic = pair_terms[2]
+    cdef double a, total, free
+    cdef Py_ssize_t i, k, j
+    cdef int entry = 0, m
+    with nogil:
+        for i in range(indptr.shape[0] - 1):
+            m = unknown[i]
+            if m < 0:
+                continue
+            row[m] = entry
+            total = free = 0.0
+            for k in range(indptr[i], indptr[i + 1]):
+                j = indices[k]
+                if not has_pressure(kind[j]):
+                    continue
+                a = scale * coefficient(
+                    distance(position[j, 0] - position[i, 0],
+                             wrap(position[j, 1] - position[i, 1], width),
+                             position[j, 2] - position[i, 2], floor),
+                    radius, one, inverse, cubic)
+                if a == 0.0:
+                    continue
+                total += a
+                if unknown[j] < 0:
+                    free += a
+                else:
+                    column[entry] = unknown[j]
+                    value[entry] = -a
+                    entry += 1
+            diagonal[m] = total
+            excess[m] = free
+        row[diagonal.shape[0]] = entry
+    return entry
+
+
+def reach(const int[::1] row, const int[::1] column, const double[::1] excess,
+          int[::1] queue, unsigned char[::1] reached):
+    """Mark the rows that are tied to the free surface, directly or through others."""
+    cdef Py_ssize_t m, k
+    cdef int head = 0, tail = 0, c
+    with nogil:
+        for m in range(excess.shape[0]):
+            reached[m] = excess[m] > 0.0
+            if reached[m]:
+                queue[tail] = <int>m
+                tail += 1
+        while head < tail:
+            m = queue[head]
+            head += 1
+            for k in range(row[m], row[m + 1]):
+                c = column[k]
+                if not reached[c]:
+                    reached[c] = 1
+                    queue[tail] = c
+                    tail += 1
+    return tail

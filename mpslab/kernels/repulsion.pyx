@@ -1,0 +1,128 @@
+"""Displacements that keep particles apart: shifting, dynamic stabilisation, collision."""
+from libc.math cimport fabs, sqrt
+
+from mpslab.kernels.pair cimport FLUID, distance, has_pressure, weight, wrap
+
+
+def shifting(const double[:, ::1] position, const signed char[::1] kind,
+             const unsigned char[::1] surface, const int[::1] indptr, const int[::1] indices,
+             stencil, double strength, double longest, double[:, ::1] out):
+    """dr_i = -A d0^2 sum_j (w/(n0 r^2)) r_ij, at most `longest` (after Lind et al. 2012) [m].
+
+    Zero for free-surface particles and for those that have one as a neighbour.
+    """
+    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
+    cdef double factor = -strength * stencil.spacing ** 2 / stencil.n0
+    cdef double dx, dy, dz, r, w, sx, sy, sz, length
+    cdef Py_ssize_t i, k, j
+    cdef int near_surface
+    with nogil:
+        for i in range(indptr.shape[0] - 1):
+            out[i, 0] = out[i, 1] = out[i, 2] = 0.0
+            if kind[i] != FLUID or surface[i]:
+                continue
+            sx = sy = sz = 0.0
+            near_surface = 0
+            for k in range(indptr[i], indptr[i + 1]):
+                j = indices[k]
+                dx = position[j, 0] - position[i, 0]
+                dy = wrap(position[j, 1] - position[i, 1], width)
+                dz = position[j, 2] - position[i, 2]
+                r = distance(dx, dy, dz, floor)
+                w = weight(r, radius) / (r * r)
+                near_surface += (surface[j] != 0) & (r < radius)
+                sx += w * dx
+                sy += w * dy
+                sz += w * dz
+            if near_surface:
+                continue
+            length = fabs(factor) * sqrt(sx * sx + sy * sy + sz * sz)
+            w = factor * (longest / length if length > longest else 1.0)
+            out[i, 0] = w * sx
+            out[i, 1] = w * sy
+            out[i, 2] = w * sz
+
+
+def overlap(const double[:, ::1] position, const double[:, ::1] before,
+            const signed char[::1] kind, const int[::1] indptr, const int[::1] indices,
+            stencil, double closest, double[:, ::1] out):
+    """Displacement that takes pairs closer than `closest` apart (after Tsuruta et al. 2013) [m].
+
+    dr_i = -s (sqrt(closest^2 - r_perp^2) - r_par) e, along the direction e that the pair had
+    before the pressure moved it; s = 1/2 between fluid particles, 1 against a wall.
+    """
+    cdef double width = stencil.width, floor = stencil.floor
+    cdef double dx, dy, dz, ex, ey, ez, r, rr, par, along, push, sx, sy, sz
+    cdef Py_ssize_t i, k, j
+    with nogil:
+        for i in range(indptr.shape[0] - 1):
+            out[i, 0] = out[i, 1] = out[i, 2] = 0.0
+            if kind[i] != FLUID:
+                continue
+            sx = sy = sz = 0.0
+            for k in range(indptr[i], indptr[i + 1]):
+                j = indices[k]
+                dx = position[j, 0] - position[i, 0]
+                dy = wrap(position[j, 1] - position[i, 1], width)
+                dz = position[j, 2] - position[i, 2]
+                rr = dx * dx + dy * dy + dz * dz
+                if rr >= closest * closest or not has_pressure(kind[j]):
+                    continue
+                ex = before[j, 0] - before[i, 0]
+                ey = wrap(before[j, 1] - before[i, 1], width)
+                ez = before[j, 2] - before[i, 2]
+                r = distance(ex, ey, ez, floor)
+                ex /= r
+                ey /= r
+                ez /= r
+                par = dx * ex + dy * ey + dz * ez
+                along = closest * closest - (rr - par * par)
+                push = sqrt(along if along > 0.0 else 0.0) - par
+                if push <= 0.0:
+                    continue
+                push *= 0.5 if kind[j] == FLUID else 1.0
+                sx -= push * ex
+                sy -= push * ey
+                sz -= push * ez
+            out[i, 0] = sx
+            out[i, 1] = sy
+            out[i, 2] = sz
+
+
+def collision(const double[:, ::1] position, const double[:, ::1] velocity,
+              const signed char[::1] kind, const int[::1] indptr, const int[::1] indices,
+              stencil, double closest, double restitution, double[:, ::1] out):
+    """Change of velocity where approaching pairs are closer than `closest` [m/s].
+
+    du_i = -(1 + restitution) s (u_i - u_j).e e, with s = 1/2 between equal particles and 1
+    against a wall (Shibata, Murotani & Koshizuka 2014).
+    """
+    cdef double width = stencil.width, floor = stencil.floor
+    cdef double dx, dy, dz, r, approach, sx, sy, sz
+    cdef Py_ssize_t i, k, j
+    with nogil:
+        for i in range(indptr.shape[0] - 1):
+            out[i, 0] = out[i, 1] = out[i, 2] = 0.0
+            if kind[i] != FLUID:
+                continue
+            sx = sy = sz = 0.0
+            for k in range(indptr[i], indptr[i + 1]):
+                j = indices[k]
+                dx = position[j, 0] - position[i, 0]
+                dy = wrap(position[j, 1] - position[i, 1], width)
+                dz = position[j, 2] - position[i, 2]
+                r = distance(dx, dy, dz, floor)
+                if r >= closest:
+                    continue
+                approach = ((velocity[i, 0] - velocity[j, 0]) * dx
+                            + (velocity[i, 1] - velocity[j, 1]) * dy
+                            + (velocity[i, 2] - velocity[j, 2]) * dz) / r
+                if approach <= 0.0:
+                    continue
+                approach *= (1.0 + restitution) * (0.5 if kind[j] == FLUID else 1.0) / r
+                sx -= approach * dx
+                sy -= approach * dy
+                sz -= approach * dz
+            out[i, 0] = sx
+            out[i, 1] = sy
+            out[i, 2] = sz

@@ -1,0 +1,114 @@
+"""Sparse rows: product, incomplete Cholesky factor, substitution."""
+
+
+def multiply(const int[::1] row, const int[::1] column, const double[::1] value,
+             const double[::1] diagonal, const double[::1] x, double[::1] out):
+    """out = A x; A is symmetric, its diagonal stored beside the off-diagonal rows."""
+    cdef Py_ssize_t i, k
+    cdef double total
+    with nogil:
+        for i in range(diagonal.shape[0]):
+            total = diagonal[i] * x[i]
+            for k in range(row[i], row[i + 1]):
+                total += value[k] * x[column[k]]
+            out[i] = total
+
+
+def dot(const double[::1] x, const double[::1] y):
+    """Sum of x_i y_i, in an order that does not depend on where the arrays lie."""
+    cdef Py_ssize_t i
+    cdef double total = 0.0
+    with nogil:
+        for i in range(x.shape[0]):
+            total += x[i] * y[i]
+    return total
+
+
+def axpy(double a, const double[::1] x, double[::1] y):
+    """y = y + a x."""
+    cdef Py_ssize_t i
+    with nogil:
+        for i in range(x.shape[0]):
+            y[i] += a * x[i]
+
+
+def xpay(const double[::1] x, double a, double[::1] y):
+    """y = x + a y."""
+    cdef Py_ssize_t i
+    with nogil:
+        for i in range(x.shape[0]):
+            y[i] = x[i] + a * y[i]
+
+
+def lower_ends(const int[::1] row, const int[::1] column, int[::1] end):
+    """End of the part left of the diagonal in each row (columns ascend)."""
+    cdef Py_ssize_t i
+    cdef int k
+    with nogil:
+        for i in range(end.shape[0]):
+            k = row[i]
+            while k < row[i + 1] and column[k] < i:
+                k += 1
+            end[i] = k
+
+
+def factorise(const int[::1] row, const int[::1] column, const double[::1] value,
+              const double[::1] diagonal, const int[::1] end, double[::1] factor,
+              double[::1] pivot, int[::1] seat):
+    """Incomplete Cholesky factor without fill, A ~ (I + L) D (I + L)^T.
+
+    factor : out, laid out as `value`; its lower part holds L
+    pivot : (m,) out, 1/D
+    seat : (m,) scratch, -1 in every place
+
+    Returns the number of pivots below 1e-2 of their diagonal, which were put back to it.
+    """
+    cdef Py_ssize_t i, k, e
+    cdef int c, s, replaced = 0
+    cdef double d, f
+    with nogil:
+        for i in range(diagonal.shape[0]):
+            for k in range(row[i], end[i]):
+                seat[column[k]] = <int>k
+                factor[k] = value[k]
+            d = diagonal[i]
+            # Row i, left to right: factor[k] is L D until its turn, L after it.
+            for k in range(row[i], end[i]):
+                c = column[k]
+                f = factor[k]
+                for e in range(row[c], end[c]):
+                    s = seat[column[e]]
+                    if s >= 0:
+                        f -= factor[e] * factor[s]
+                factor[k] = f
+            for k in range(row[i], end[i]):
+                c = column[k]
+                f = factor[k] * pivot[c]
+                d -= f * factor[k]
+                factor[k] = f
+                seat[c] = -1
+            if d < 1e-2 * diagonal[i]:
+                d = diagonal[i]
+                replaced += 1
+            pivot[i] = 1.0 / d
+    return replaced
+
+
+def substitute(const int[::1] row, const int[::1] column, const int[::1] end,
+               const double[::1] factor, const double[::1] pivot, const double[::1] r,
+               double[::1] z):
+    """Solve (I + L) D (I + L)^T z = r: forward, then backward."""
+    cdef Py_ssize_t i, k
+    cdef double total
+    with nogil:
+        for i in range(pivot.shape[0]):
+            total = r[i]
+            for k in range(row[i], end[i]):
+                total -= factor[k] * z[column[k]]
+            z[i] = total
+        for i in range(pivot.shape[0]):
+            z[i] *= pivot[i]
+        for i in range(pivot.shape[0] - 1, -1, -1):
+            total = z[i]
+            for k in range(row[i], end[i]):
+                z[column[k]] -= factor[k] * total

@@ -1,0 +1,48 @@
+"""The piston: wall particles that follow the wavemaker."""
+
+import numpy as np
+
+from mpslab.particles import DUMMY, WALL
+
+
+class Piston:
+    """Moves the piston's particles and covers the bed behind its face.
+
+    Parameters
+    ----------
+    particles : ParticleSet
+        As laid out, the piston at rest with its face at x = 0.
+    paddle : mpslab.paddle.Paddle or None
+        Motion of the wavemaker; None for a tank without one.
+    spacing : float [m]
+    """
+
+    def __init__(self, particles, paddle, spacing):
+        self.paddle = paddle
+        self.margin = 0.75 * spacing
+        moving = particles.moves_with_piston
+        self.rest = particles.position[moving, 0].copy()
+        near = paddle.foremost + spacing if paddle else -np.inf
+        bed = (particles.kind == WALL) & (particles.position[:, 0] < near)
+        self.bed = particles.gid[bed]
+
+    def face(self, time):
+        """x of the piston's face [m]; 0 without a wavemaker."""
+        return self.paddle.displacement(time) if self.paddle else 0.0
+
+    def move(self, particles, time, dt):
+        """Take the piston to its place at time + dt; its velocity is that of the move."""
+        if self.paddle is None:
+            return
+        start, end = self.face(time), self.face(time + dt)
+        moving = particles.moves_with_piston
+        particles.position[moving, 0] = self.rest + end
+        particles.velocity[moving, 0] = (end - start) / dt
+        self.cover(particles, end)
+
+    def cover(self, particles, face):
+        """Bed behind the face carries no pressure: else it would tie the corner to p = 0."""
+        rows = np.searchsorted(particles.gid, self.bed)
+        behind = particles.position[rows, 0] < face - self.margin
+        particles.kind[rows] = np.where(behind, DUMMY, WALL)
+        particles.pressure[rows[behind]] = 0.0

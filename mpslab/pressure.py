@@ -1,0 +1,59 @@
+"""The pressure of a step: assemble the Poisson equation and solve it."""
+
+import numpy as np
+
+from mpslab.kernels import poisson
+from mpslab.sparse import PressureSystem
+
+
+def assemble(particles, neighbors, stencil, pair_terms, density, source):
+    """System of the particles that carry a pressure and are not at the surface.
+
+    Parameters
+    ----------
+    particles : ParticleSet at the predicted positions, surface marked
+    neighbors : NeighborList of these positions
+    stencil : Stencil of the Laplacian
+    pair_terms : tuple
+        Of the Laplacian; see :mod:`mpslab.laplacians`.
+    density : float [kg/m3]
+    source : (n,) float64 [1/s2]
+        Right-hand side for all particles.
+
+    Returns
+    -------
+    system : PressureSystem
+    rows : (m,) int
+        Particle of each row.
+    """
+    rows = np.flatnonzero(particles.carries_pressure & (particles.surface == 0))
+    m, most = len(rows), len(neighbors.indices)
+    unknown = np.full(len(particles), -1, np.int32)
+    unknown[rows] = np.arange(m, dtype=np.int32)
+    row, diagonal, excess = np.empty(m + 1, np.int32), np.empty(m), np.empty(m)
+    column, value = np.empty(most, np.int32), np.empty(most)
+    entries = poisson.assemble(
+        particles.position, particles.kind, neighbors.indptr, neighbors.indices, unknown,
+        stencil, pair_terms, 1.0 / density, row, column, value, diagonal, excess,
+    )  # fmt: skip
+    column, value = column[:entries], value[:entries]
+    _hold_cut_off_rows(row, column, diagonal, excess)
+    return PressureSystem(row, column, value, diagonal, source[rows]), rows
+
+
+def _hold_cut_off_rows(row, column, diagonal, excess):
+    """Double the diagonal of rows that no path ties to the surface: they would be singular."""
+    reached = np.empty(len(diagonal), np.uint8)
+    queue = np.empty(len(diagonal), np.int32)
+    if poisson.reach(row, column, excess, queue, reached) < len(diagonal):
+        alone = reached == 0
+        diagonal[alone] = np.maximum(2.0 * diagonal[alone], np.finfo(float).tiny)
+
+
+def solve(system, rows, particles, solver, tolerance, max_iterations, clip):
+    """Solve from the last pressure, in place; zero at the surface and, with `clip`, where < 0."""
+    pressure = particles.pressure[rows]
+    report = solver.solve(system, pressure, tolerance, max_iterations)
+    particles.pressure[:] = 0.0
+    particles.pressure[rows] = np.maximum(pressure, 0.0) if clip else pressure
+    return report

@@ -1,0 +1,8 @@
+"""Solvers of the pressure equation; the file name is the option ``scheme.solver``.
+
+Each module has one function::
+
+    solve(system, x, tolerance, max_iterations) -> mpslab.sparse.SolverReport
+
+which starts from ``x`` and leaves the solution there.
+"""

@@ -1,0 +1,22 @@
+"""Conjugate gradients with an incomplete Cholesky factor (ICCG), in the order of the particles."""
+
+import numpy as np
+
+from mpslab.conjugate_gradient import conjugate_gradient
+from mpslab.kernels import sparse
+
+
+def solve(system, x, tolerance, max_iterations):
+    """Solve A x = b with A ~ (I + L) D (I + L)^T, no fill; see :mod:`mpslab.solvers`."""
+    m = len(system)
+    end, seat = np.empty(m, np.int32), np.full(m, -1, np.int32)
+    factor, pivot = np.empty(len(system.value)), np.empty(m)
+    sparse.lower_ends(system.row, system.column, end)
+    replaced = sparse.factorise(
+        system.row, system.column, system.value, system.diagonal, end, factor, pivot, seat
+    )
+
+    def precondition(r, z):
+        sparse.substitute(system.row, system.column, end, factor, pivot, r, z)
+
+    return conjugate_gradient(system, x, precondition, tolerance, max_iterations, replaced)

@@ -1,0 +1,10 @@
+"""Mixed source: the divergence of the velocity and a share of the density deviation."""
+
+from mpslab.kernels.divergence import divergence
+
+
+def source(position, velocity, number_density, indptr, indices, stencil, dt, scheme, out):
+    """b_i = -<div u*>_i/dt + gamma (n_i - n0)/(n0 dt^2) (Tanaka & Masunaga 2010) [1/s2]."""
+    divergence(position, velocity, indptr, indices, stencil, out)
+    out /= -dt
+    out += (scheme.gamma / dt**2) * (number_density / stencil.n0 - 1.0)

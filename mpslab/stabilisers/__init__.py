@@ -1,0 +1,10 @@
+"""Models that keep the particles in order; the file names are the options ``scheme.stabiliser``.
+
+Each module has one function::
+
+    stabilise(particles, before, neighbors, stencil, dt, scheme)
+
+which changes ``particles.position`` and ``particles.velocity`` in place, and a word ``STAGE``:
+"predicted" (before the pressure is solved) or "corrected" (at the end of the step, when
+``before`` holds the predicted positions, (n, 3) [m]).
+"""

@@ -1,0 +1,18 @@
+"""Dynamic stabilisation (DS): push apart only the pairs that came too close."""
+
+import numpy as np
+
+from mpslab.kernels import repulsion
+
+STAGE = "corrected"
+
+
+def stabilise(particles, before, neighbors, stencil, dt, scheme):
+    """Remove the overlap of pairs below ``ds_distance`` (after Tsuruta et al. 2013)."""
+    move = np.empty_like(particles.position)
+    repulsion.overlap(
+        particles.position, before, particles.kind, neighbors.indptr, neighbors.indices,
+        stencil, scheme.ds_distance * stencil.spacing, move,
+    )  # fmt: skip
+    particles.position += move
+    particles.velocity += move / dt

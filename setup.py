@@ -1,0 +1,56 @@
+"""Build of the compiled kernels.
+
+Two switches, read from the environment:
+
+MPSLAB_PORTABLE=1
+    Leave out ``-march=native``, so that the build runs on any machine of this architecture.
+MPSLAB_CHECKED=1
+    Check every array index in the kernels (slow; for the tests).
+"""
+
+import os
+from pathlib import Path
+
+import numpy
+from Cython.Build import cythonize
+from setuptools import Extension, setup
+
+CHECKED = os.environ.get("MPSLAB_CHECKED") == "1"
+PORTABLE = os.environ.get("MPSLAB_PORTABLE") == "1"
+
+# Fast mathematics lets the compiler sum a row in vector lanes.  Not-a-number stays a number that
+# can be tested for, and nothing goes into the link arguments: there, the option would switch
+# denormal numbers off in the whole process.
+FLAGS = ["-O3", "-ffast-math", "-fno-finite-math-only"]
+if not PORTABLE:
+    FLAGS += ["-march=native", "-mtune=generic"]
+
+DIRECTIVES = {
+    "language_level": 3,
+    "boundscheck": CHECKED,
+    "wraparound": False,
+    "initializedcheck": False,
+    "cdivision": True,
+}
+
+
+def extensions():
+    """One extension for each .pyx below the package."""
+    for source in sorted(Path("mpslab").rglob("*.pyx")):
+        yield Extension(
+            ".".join(source.with_suffix("").parts),
+            [str(source)],
+            include_dirs=[numpy.get_include()],
+            define_macros=[("NPY_NO_DEPRECATED_API", "NPY_1_7_API_VERSION")],
+            extra_compile_args=FLAGS,
+        )
+
+
+setup(
+    ext_modules=cythonize(
+        list(extensions()),
+        compiler_directives=DIRECTIVES,
+        nthreads=os.cpu_count() or 1,
+        force=CHECKED,
+    )
+)
