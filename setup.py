@@ -11,7 +11,6 @@ MPSLAB_CHECKED=1
 import os
 from pathlib import Path
 
-import numpy
 from Cython.Build import cythonize
 from setuptools import Extension, setup
 
@@ -37,20 +36,16 @@ DIRECTIVES = {
 def extensions():
     """One extension for each .pyx below the package."""
     for source in sorted(Path("mpslab").rglob("*.pyx")):
-        yield Extension(
-            ".".join(source.with_suffix("").parts),
-            [str(source)],
-            include_dirs=[numpy.get_include()],
-            define_macros=[("NPY_NO_DEPRECATED_API", "NPY_1_7_API_VERSION")],
-            extra_compile_args=FLAGS,
-        )
+        name = ".".join(source.with_suffix("").parts)
+        yield Extension(name, [str(source)], extra_compile_args=FLAGS)
 
 
 setup(
     ext_modules=cythonize(
         list(extensions()),
         compiler_directives=DIRECTIVES,
+        build_dir="build/cython-checked" if CHECKED else "build/cython",
         nthreads=os.cpu_count() or 1,
-        force=CHECKED,
-    )
+    ),
+    options={"build_ext": {"parallel": os.cpu_count() or 1, "force": CHECKED or PORTABLE}},
 )

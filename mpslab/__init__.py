@@ -1,0 +1,15 @@
+"""mpslab: an incompressible particle wave tank.
+
+>>> import mpslab
+>>> case = mpslab.load_case("plunging_breaker", {"particles.spacing": 0.004})
+>>> run = mpslab.Simulation(case).run()
+>>> run.particles.position, run.gauges["time"]
+"""
+
+from mpslab.cases import load_case
+from mpslab.keys import CaseError
+from mpslab.simulation import Simulation
+from mpslab.watch import RunFailed
+
+__version__ = "0.1.0"
+__all__ = ["CaseError", "RunFailed", "Simulation", "load_case"]

@@ -2,7 +2,16 @@
 
 import numpy as np
 
+from mpslab import plugins
 from mpslab.particles import DUMMY, WALL
+
+
+def make_paddle(case):
+    """Motion of a case's wavemaker, None when the tank has a fixed wall."""
+    if case.wavemaker.type == "none":
+        return None
+    maker = plugins.load("wavemakers", case.wavemaker.type)
+    return maker.make(case.wavemaker, case.tank.depth, case.fluid.gravity, case.time.end)
 
 
 class Piston:

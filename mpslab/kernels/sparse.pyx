@@ -54,39 +54,35 @@ def lower_ends(const int[::1] row, const int[::1] column, int[::1] end):
 
 def factorise(const int[::1] row, const int[::1] column, const double[::1] value,
               const double[::1] diagonal, const int[::1] end, double[::1] factor,
-              double[::1] pivot, int[::1] seat):
+              double[::1] pivot, double[::1] work):
     """Incomplete Cholesky factor without fill, A ~ (I + L) D (I + L)^T.
 
     factor : out, laid out as `value`; its lower part holds L
     pivot : (m,) out, 1/D
-    seat : (m,) scratch, -1 in every place
+    work : (m,) scratch, all zero; a row spread out, so that absent entries add nothing
 
     Returns the number of pivots below 1e-2 of their diagonal, which were put back to it.
     """
     cdef Py_ssize_t i, k, e
-    cdef int c, s, replaced = 0
+    cdef int c, replaced = 0
     cdef double d, f
     with nogil:
         for i in range(diagonal.shape[0]):
             for k in range(row[i], end[i]):
-                seat[column[k]] = <int>k
-                factor[k] = value[k]
+                work[column[k]] = value[k]
             d = diagonal[i]
-            # Row i, left to right: factor[k] is L D until its turn, L after it.
+            # From left to right, work turns from row i of A into row i of L D.
             for k in range(row[i], end[i]):
                 c = column[k]
-                f = factor[k]
+                f = 0.0
                 for e in range(row[c], end[c]):
-                    s = seat[column[e]]
-                    if s >= 0:
-                        f -= factor[e] * factor[s]
-                factor[k] = f
+                    f += factor[e] * work[column[e]]
+                work[c] -= f
             for k in range(row[i], end[i]):
                 c = column[k]
-                f = factor[k] * pivot[c]
-                d -= f * factor[k]
-                factor[k] = f
-                seat[c] = -1
+                factor[k] = work[c] * pivot[c]
+                d -= factor[k] * work[c]
+                work[c] = 0.0
             if d < 1e-2 * diagonal[i]:
                 d = diagonal[i]
                 replaced += 1

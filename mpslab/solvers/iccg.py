@@ -9,11 +9,11 @@ from mpslab.kernels import sparse
 def solve(system, x, tolerance, max_iterations):
     """Solve A x = b with A ~ (I + L) D (I + L)^T, no fill; see :mod:`mpslab.solvers`."""
     m = len(system)
-    end, seat = np.empty(m, np.int32), np.full(m, -1, np.int32)
+    end, work = np.empty(m, np.int32), np.zeros(m)
     factor, pivot = np.empty(len(system.value)), np.empty(m)
     sparse.lower_ends(system.row, system.column, end)
     replaced = sparse.factorise(
-        system.row, system.column, system.value, system.diagonal, end, factor, pivot, seat
+        system.row, system.column, system.value, system.diagonal, end, factor, pivot, work
     )
 
     def precondition(r, z):

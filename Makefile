@@ -1,0 +1,44 @@
+# mpslab: two commands do everything on a fresh machine with Python 3.11 or later and gcc.
+
+PYTHON ?= python3
+BIN := .venv/bin
+SOURCES := $(shell find mpslab -name '*.pyx' -o -name '*.pxd') setup.py pyproject.toml
+
+.PHONY: help tank test test-checked lint clean
+
+help:
+	@echo "make tank   build mpslab and run the plunging breaker; pictures land in runs/"
+	@echo "make test   build mpslab and run its tests"
+	@echo "make test-checked   the unit tests again, every array index in the kernels checked"
+	@echo "make lint   check the style of the code"
+	@echo "make clean  remove what was built (results in runs/ stay)"
+
+tank: .venv/built
+	$(BIN)/python -m mpslab.tank
+
+test: .venv/tested lint
+	$(BIN)/python -m pytest
+
+# The slow paths of physics and of whole runs say nothing about array indices.
+test-checked: .venv/tested
+	MPSLAB_CHECKED=1 $(BIN)/python -m pip install -q --no-deps --upgrade --target build/checked .
+	PYTHONPATH=build/checked $(BIN)/pytest -m "not slow"
+
+lint: .venv/tested
+	$(BIN)/ruff check .
+
+clean:
+	rm -rf .venv build *.egg-info .pytest_cache .ruff_cache .hypothesis .benchmarks
+	find mpslab -name '*.so' -delete
+
+.venv/bin/python:
+	$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'mpslab needs Python 3.11 or later')"
+	$(PYTHON) -m venv .venv
+
+.venv/built: .venv/bin/python $(SOURCES)
+	$(BIN)/python -m pip install -q -e .
+	touch $@
+
+.venv/tested: .venv/built
+	$(BIN)/python -m pip install -q -e '.[test]'
+	touch $@

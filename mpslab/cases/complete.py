@@ -1,0 +1,71 @@
+"""Fills in the values of a case that follow from others, so that a run can be read off its case."""
+
+from dataclasses import replace
+from math import ceil, sqrt
+
+from mpslab.parameters import Case
+
+
+def complete(case: Case) -> Case:
+    """The case with nothing left open; a case that is complete comes back equal.
+
+    Left open by 0 or [], or left out: wall height, bed, wall layers, limits of the time step, output
+    intervals, and y of the instruments. In a 2-D tank every y is 0.
+    """
+    tank = _tank(case.tank)
+    return replace(
+        case,
+        tank=tank,
+        water=tuple(_flat_box(box) for box in case.water) if tank.width == 0.0 else case.water,
+        particles=replace(case.particles, layers=case.particles.layers or least_layers(case)),
+        time=_time(case),
+        output=_output(case),
+        gauge=tuple(_across(gauge, tank) for gauge in case.gauge),
+        probe=tuple(_across(probe, tank) for probe in case.probe),
+    )
+
+
+def least_layers(case: Case) -> int:
+    """Layers of wall and dummy particles that fill the larger radius of the scheme."""
+    return ceil(max(case.scheme.effective_radius, case.scheme.laplacian_radius))
+
+
+def largest_dt(case: Case) -> float:
+    """Largest time step where none is given, 0.3 d0 / sqrt(g h) [s]."""
+    return 0.3 * case.particles.spacing / sqrt(case.fluid.gravity * case.tank.depth)
+
+
+def _tank(tank):
+    bed = tank.bed or ((0.0, 0.0), (tank.length, 0.0))
+    top = max(z for _, z in bed)
+    return replace(tank, bed=bed, height=tank.height or max(3.0 * tank.depth, top + tank.depth))
+
+
+def _time(case):
+    time = case.time
+    maximum = time.maximum or largest_dt(case)
+    return replace(
+        time,
+        maximum=maximum,
+        start=time.start or maximum / 10.0,
+        minimum=time.minimum or maximum * 1e-4,
+    )
+
+
+def _output(case):
+    output, end = case.output, case.time.end
+    return replace(
+        output, interval=output.interval or end / 50.0, checkpoint=output.checkpoint or end / 5.0
+    )
+
+
+def _across(instrument, tank):
+    middle = 0.5 * tank.width
+    return replace(
+        instrument, y=middle if instrument.y is None or tank.width == 0.0 else instrument.y
+    )
+
+
+def _flat_box(box):
+    (x0, _, z0), (x1, _, z1) = box.start, box.end
+    return replace(box, start=(x0, 0.0, z0), end=(x1, 0.0, z1))

@@ -1,0 +1,79 @@
+"""The built-in cases (a TOML file each in this folder) and the case files of the user."""
+
+import os
+from pathlib import Path
+
+from mpslab.cases import changes, reader
+from mpslab.keys import CaseError, did_you_mean, shown
+from mpslab.parameters import Case
+
+FOLDER = Path(__file__).parent
+
+
+def load_case(name_or_path, overrides=None) -> Case:
+    """A case with nothing left open: read, changed, completed and checked.
+
+    Parameters
+    ----------
+    name_or_path : str or Path
+        Name of a built-in case, or path of a TOML file.
+    overrides : dict, optional
+        Values that replace those of the file, by key: {"particles.spacing": 0.002}. A number picks
+        one of several: {"gauge.0.x": 0.1}. A relative wavemaker.file in it counts from the current
+        folder, one in the TOML file from the folder of that file.
+
+    Returns
+    -------
+    Case
+
+    Raises
+    ------
+    CaseError
+        If there is no such case, or a key or value does not fit: one line with key, value, range.
+    """
+    path = _find(name_or_path)
+    tables = reader.parse(_read(path), str(path))
+    tables = reader.with_absolute_file(tables, path.parent)
+    return reader.from_tables(changes.apply(tables, overrides or {}), name=path.stem)
+
+
+def names() -> tuple[str, ...]:
+    """Names of the built-in cases."""
+    return tuple(sorted(path.stem for path in FOLDER.glob("*.toml")))
+
+
+def text(name: str) -> str:
+    """The TOML file of a built-in case, as written; raises CaseError if there is none."""
+    if name not in names():
+        raise _unknown(name)
+    return _read(FOLDER / f"{name}.toml")
+
+
+def _find(name_or_path):
+    if not isinstance(name_or_path, str | os.PathLike):
+        raise CaseError(
+            f"case = {shown(name_or_path)}: must be the name of a case or the path of a TOML file"
+        )
+    if name_or_path in names():
+        return FOLDER / f"{name_or_path}.toml"
+    path = Path(name_or_path)
+    if path.suffix != ".toml" and not os.path.isfile(path):
+        raise _unknown(str(name_or_path))
+    return path.absolute()
+
+
+def _unknown(name):
+    hint = did_you_mean(name, names())
+    return CaseError(
+        f"case = {shown(name)}: must be one of {', '.join(names())}, or a .toml file{hint}"
+    )
+
+
+def _read(path):
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError:
+        raise CaseError(f"case = {shown(str(path))}: must be text in UTF-8") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise CaseError(f"case = {shown(str(path))}: must be a readable file ({reason})") from None

@@ -1,0 +1,28 @@
+"""Recipes: named sets of scheme keys, which fill in what a case does not set itself.
+
+Each recipe sets the same keys, so that one can take the place of another.
+"""
+
+RECIPES = {
+    # The default: a corrected gradient whose pair forces are equal and opposite (Zhang, Adams & Hu
+    # 2024, in MPS form), and particles that are kept in order, which its accuracy rests on.
+    "standard": {
+        "gradient": "corrected",
+        "source": "mixed",
+        "laplacian": "standard",
+        "solver": "iccg",
+        "stabiliser": ["shifting", "ds"],
+        "effective_radius": 2.1,
+        "laplacian_radius": 2.1,
+    },
+    # What Gotoh, Khayyer, Ikari and Hori do in the paper.
+    "paper": {
+        "gradient": "cmps",
+        "source": "density",
+        "laplacian": "standard",
+        "solver": "iccg",
+        "stabiliser": ["collision"],
+        "effective_radius": 2.1,
+        "laplacian_radius": 3.1,
+    },
+}

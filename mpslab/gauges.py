@@ -1,0 +1,160 @@
+"""Instruments: the water level at a place, pressure and velocity at a point."""
+
+import numpy as np
+
+from mpslab.particles import FLUID, PISTON, WALL
+
+# The water level is looked for on a vertical line of points, so many to a particle spacing.
+POINTS = 8
+# A gap in the water column wider than this, from surface to surface, ends it [spacings]; between
+# the centres of the particles on either side of the gap it is one spacing more.
+LARGEST_GAP = 1.0
+# Inside a solid no room is left for water, and a fraction of nothing would be noise.
+LEAST_ROOM = 0.25
+PROBE_RADIUS = 2.1  # [spacings]
+
+
+def surface_elevation(position, kind, spacing, x, y=0.0, width=0.0):
+    r"""Level of the water surface over a place.
+
+    Along the vertical line through (x, y), the water fraction is
+
+    .. math::
+        \phi(z) = \frac{\sum_{j \in \text{fluid}} B_j}{1 - \sum_{j \in \text{solid}} B_j}, \qquad
+        B_j = B(x_j - x)\, B(y_j - y)\, B(z_j - z)
+
+    with the quadratic B-spline B of half width 1.5 spacings. Its values over a lattice add up to
+    one wherever the line lies in it, so that the fraction is exactly one in a lattice of water, and
+    1/2 exactly half a spacing above its uppermost layer. The level is the highest point with a
+    fraction of 1/2 of the column that is connected to the bed: a gap of more than two spacings
+    between particles ends it, so that neither spray nor a jet that overhangs counts. A particle
+    that moves in or out adds to the sum, or leaves it, with zero slope: the level is smooth in
+    time.
+
+    Parameters
+    ----------
+    position : (n, 3) float64 [m]
+    kind : (n,) int8
+    spacing : float
+        Particle spacing [m].
+    x, y : float
+        The place [m]; y has no meaning where all particles have the same y (2-D).
+    width : float, optional
+        Period in y [m], 0 if there is none.
+
+    Returns
+    -------
+    float
+        z of the water surface [m]; NaN where it is dry.
+    """
+    near, weight = _column(position, spacing, x, y, width)
+    height = position[near, 2] / spacing
+    is_fluid = kind[near] == FLUID
+    if not is_fluid.any():
+        return np.nan
+    lowest = np.floor(height.min()) - 2
+    count = POINTS * int(np.ceil(height.max()) + 2 - lowest) + 1
+    level = lowest + np.arange(count) / POINTS
+    fluid = _spread(height[is_fluid], weight[is_fluid], lowest, count)
+    solid = _spread(height[~is_fluid], weight[~is_fluid], lowest, count)
+    room = np.maximum(1.0 - solid, LEAST_ROOM)
+    return spacing * _top(level, fluid - 0.5 * room, fluid + solid >= 0.5)
+
+
+def _column(position, spacing, x, y, width):
+    """Rows of the particles around a vertical line, and their horizontal weights."""
+    near = np.flatnonzero(np.abs(position[:, 0] - x) < 1.5 * spacing)
+    weight = _spline((position[near, 0] - x) / spacing)
+    across = position[near, 1]
+    if len(near) and np.ptp(across) > 0.0:
+        weight = weight * _spline(_minimal_image(across - y, width) / spacing)
+    return near[weight > 0.0], weight[weight > 0.0]
+
+
+def _minimal_image(offset, width):
+    """Distance in y to the nearest of the periodic images."""
+    return offset - width * np.round(offset / width) if width else offset
+
+
+def _spline(t):
+    """Quadratic B-spline, t in spacings: a bell of half width 1.5 and of area one."""
+    t = np.abs(t)
+    return np.where(t < 0.5, 0.75 - t**2, 0.5 * np.maximum(1.5 - t, 0.0) ** 2)
+
+
+def _spread(height, weight, lowest, count):
+    """Sum of weighted splines at the points of the vertical line, heights in spacings."""
+    reach = np.arange(-2 * POINTS, 2 * POINTS + 1)
+    nearest = np.round((height - lowest) * POINTS).astype(int)
+    point = nearest[:, None] + reach
+    value = weight[:, None] * _spline(point / POINTS - (height - lowest)[:, None])
+    return np.bincount(point.ravel(), value.ravel(), minlength=count)[:count]
+
+
+def _top(level, excess, occupied):
+    """Highest zero of the excess of water in the lowest connected part of a column.
+
+    The excess is linear between points; it is negative at the last one.
+    """
+    filled = np.flatnonzero(occupied)
+    if not len(filled):
+        return np.nan
+    gaps = np.flatnonzero(np.diff(filled) > LARGEST_GAP * POINTS)
+    end = filled[gaps[0]] if len(gaps) else filled[-1]
+    wet = np.flatnonzero(excess[: end + 1] >= 0.0)
+    if not len(wet):
+        return np.nan
+    k = wet[-1]
+    return level[k] + excess[k] / (excess[k] - excess[k + 1]) / POINTS
+
+
+def probe(position, velocity, pressure, kind, spacing, point, width=0.0):
+    """Pressure and velocity at a point, by moving least squares of first order.
+
+    The pressure is that of fluid, wall and piston particles, the velocity that of fluid particles,
+    within 2.1 spacings. A linear field comes back exactly.
+
+    Parameters
+    ----------
+    position : (n, 3) float64 [m]
+    velocity : (n, 3) float64 [m/s]
+    pressure : (n,) float64 [Pa]
+    kind : (n,) int8
+    spacing : float
+        Particle spacing [m].
+    point : (3,) float
+        The place [m].
+    width : float, optional
+        Period in y [m], 0 if there is none.
+
+    Returns
+    -------
+    (4,) float64
+        Pressure [Pa] and the velocity components u, v, w [m/s]; NaN where there is no neighbour.
+    """
+    reach = PROBE_RADIUS * spacing
+    near = np.flatnonzero(np.abs(position[:, 0] - point[0]) < reach)
+    offset = position[near] - point
+    offset[:, 1] = _minimal_image(offset[:, 1], width)
+    inside = np.einsum("ij,ij->i", offset, offset) < reach**2
+    near, offset = near[inside], offset[inside] / spacing
+    wet = kind[near] == FLUID
+    loaded = wet | (kind[near] == WALL) | (kind[near] == PISTON)
+    p = _least_squares(offset[loaded], pressure[near[loaded], None])
+    return np.concatenate([p, _least_squares(offset[wet], velocity[near[wet]])])
+
+
+def _least_squares(offset, values):
+    """Value at the origin of the linear fields that fit (n, m) values at (n, 3) offsets best.
+
+    The slope is zero along directions in which the neighbours hardly differ: y in 2-D, or the
+    normal of a single layer of wall particles.
+    """
+    if not len(offset):
+        return np.full(values.shape[1], np.nan)
+    weight = (1.0 - np.sqrt(np.einsum("ij,ij->i", offset, offset)) / PROBE_RADIUS) ** 2
+    centre = np.average(offset, axis=0, weights=weight)
+    mean = np.average(values, axis=0, weights=weight)
+    root = np.sqrt(weight)[:, None]
+    slope, *_ = np.linalg.lstsq(root * (offset - centre), root * (values - mean), rcond=0.2)
+    return mean - centre @ slope

@@ -1,0 +1,273 @@
+"""The run folder: tables, the resolved case, and the record of the run."""
+
+import csv
+import json
+import os
+import tempfile
+from datetime import UTC, datetime
+from pathlib import Path
+from time import monotonic
+
+from mpslab.files import replacing
+from mpslab.provenance import environment
+
+STEP_COLUMNS = {
+    "step": "step",
+    "time": "time [s]",
+    "dt": "dt [s]",
+    "dt_limit": "dt_limit",
+    "iterations": "iterations",
+    "residual": "residual",
+    "seconds": "seconds",
+    "max_speed": "max_speed [m/s]",
+    "kinetic_energy": "kinetic_energy [J]",
+    "potential_energy": "potential_energy [J]",
+    "volume": "volume [m3]",
+    "lost": "lost",
+}
+LOST_COLUMNS = ("step", "time [s]", "gid", "x [m]", "y [m]", "z [m]", "reason")
+PROBE_QUANTITIES = ("pressure [Pa]", "u [m/s]", "v [m/s]", "w [m/s]")
+
+
+class CsvTable:
+    """A table of rows that are added at its end, on the disk a second later at most.
+
+    Numbers are written so that reading them back gives the same bits.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+    columns : sequence of str
+        The header. The first column never falls from row to row: a step or a time.
+    last : float, optional
+        Keep the rows of an existing file whose first entry is not above this, and go on after
+        them. Without it the table starts empty.
+
+    Raises
+    ------
+    ValueError
+        If an existing table that is to go on has other columns.
+    """
+
+    def __init__(self, path, columns, last=None):
+        self.path = Path(path)
+        self.columns = tuple(columns)
+        kept = [] if last is None else self._rows_until(last)
+        with replacing(self.path) as draft, draft.open("w", newline="", encoding="utf-8") as file:
+            csv.writer(file, lineterminator="\n").writerows([self.columns, *kept])
+        self._file = self.path.open("a", newline="", encoding="utf-8")
+        self._writer = csv.writer(self._file, lineterminator="\n")
+        self._flushed = monotonic()
+
+    def _rows_until(self, last):
+        """Whole rows of the file up to a step or time; a kill may have cut the last one short."""
+        if not self.path.exists():
+            return []
+        with self.path.open(newline="", encoding="utf-8") as file:
+            lines = [line for line in file if line.endswith("\n")]
+        header, *rows = csv.reader(lines) if lines else [self.columns]
+        if tuple(header) != self.columns:
+            raise ValueError(
+                f"{self.path}: columns are {','.join(header)}, but the run writes "
+                f"{','.join(self.columns)}"
+            )
+        return [row for row in rows if float(row[0]) <= last]
+
+    def append(self, row):
+        """Add a row of numbers and strings, one for each column."""
+        if len(row) != len(self.columns):
+            raise ValueError(f"{self.path}: {len(row)} entries for {len(self.columns)} columns")
+        self._writer.writerow(row)
+        if monotonic() - self._flushed >= 1.0:
+            self.flush()
+
+    def flush(self):
+        """Hand all rows to the operating system, where a kill of the process spares them."""
+        self._file.flush()
+        self._flushed = monotonic()
+
+    def close(self):
+        """Write what is left and close the file."""
+        self._file.close()
+
+
+class RunFolder:
+    """The files of one run; make it with `create` or `reopen`.
+
+    Attributes
+    ----------
+    path, case, run, particles, checkpoint, pictures : Path
+        The folder and its ``case.toml``, ``run.json``, ``particles.vtkhdf``, ``checkpoint.h5`` and
+        ``pictures``.
+    """
+
+    def __init__(self, path):
+        self.path = Path(path)
+        self.case = self.path / "case.toml"
+        self.run = self.path / "run.json"
+        self.particles = self.path / "particles.vtkhdf"
+        self.checkpoint = self.path / "checkpoint.h5"
+        self.pictures = self.path / "pictures"
+        self._tables = {}
+        self._environment = environment()
+        self._began = monotonic()
+        self._started = _now()
+        self._earlier_seconds = 0.0
+        self._resumed = 0
+
+    @classmethod
+    def create(cls, path):
+        """A new run folder.
+
+        Parameters
+        ----------
+        path : str or Path
+            A folder that does not exist yet, or an empty one.
+
+        Raises
+        ------
+        ValueError
+            If there is something at ``path`` already, or nothing can be written there.
+        """
+        path = Path(path)
+        if path.exists() and not path.is_dir():
+            raise _bad_out(path, "is a file")
+        try:
+            path.mkdir(parents=True, exist_ok=True)
+            if any(path.iterdir()):
+                raise _bad_out(path, "is not empty")
+            tempfile.TemporaryFile(dir=path).close()
+        except OSError as error:
+            raise _bad_out(path, f"cannot be written ({error.strerror})") from error
+        return cls(path)
+
+    @classmethod
+    def reopen(cls, path):
+        """The folder of an earlier run, to go on with it.
+
+        Parameters
+        ----------
+        path : str or Path
+            A folder with ``case.toml`` and ``checkpoint.h5``.
+
+        Raises
+        ------
+        ValueError
+            If one of the two is missing, or nothing can be written there.
+        """
+        folder = cls(path)
+        for file in (folder.case, folder.checkpoint):
+            if not file.is_file():
+                raise ValueError(
+                    f"--resume: '{path}' holds no {file.name}; allowed: the folder of a run that "
+                    "has written a checkpoint"
+                )
+        if not os.access(path, os.W_OK):
+            raise ValueError(f"--resume: '{path}' cannot be written; allowed: a writable folder")
+        folder._read_earlier_run()
+        return folder
+
+    def _read_earlier_run(self):
+        """Take over the start and the wall time; a damaged record is no reason not to go on."""
+        try:
+            earlier = json.loads(self.run.read_text(encoding="utf-8"))
+            self._started = earlier["started"]
+            self._earlier_seconds = earlier["wall_time [s]"]
+            self._resumed = earlier["resumed"] + 1
+        except (OSError, ValueError, KeyError):
+            self._resumed = 1
+
+    def open_tables(self, gauges=(), probes=(), last_step=None, last_time=None):
+        """Open ``steps.csv``, ``gauges.csv``, ``probes.csv`` and ``lost.csv``.
+
+        Parameters
+        ----------
+        gauges, probes : sequence of str
+            Names of the instruments, each a column, or four.
+        last_step : int, optional
+            Step of the checkpoint that the run goes on from: later rows are dropped.
+        last_time : float, optional
+            Its time [s].
+        """
+        gauge_columns = [f"{name} [m]" for name in gauges]
+        probe_columns = [f"{name} {quantity}" for name in probes for quantity in PROBE_QUANTITIES]
+        for name, columns, last in (
+            ("steps", STEP_COLUMNS.values(), last_step),
+            ("lost", LOST_COLUMNS, last_step),
+            ("gauges", ["time [s]", *gauge_columns], last_time),
+            ("probes", ["time [s]", *probe_columns], last_time),
+        ):
+            self._tables[name] = CsvTable(self.path / f"{name}.csv", columns, last)
+
+    def add_step(self, **entries):
+        """Add a row to ``steps.csv``; the keywords are the keys of `STEP_COLUMNS`."""
+        self._tables["steps"].append([entries[key] for key in STEP_COLUMNS])
+
+    def add_gauges(self, time, elevations):
+        """Add a row to ``gauges.csv``: time [s] and (n_gauges,) water levels [m]."""
+        self._tables["gauges"].append([time, *elevations])
+
+    def add_probes(self, time, values):
+        """Add a row to ``probes.csv``: time [s] and (n_probes, 4) p [Pa], u, v, w [m/s]."""
+        self._tables["probes"].append([time, *(entry for probe in values for entry in probe)])
+
+    def add_lost(self, step, time, gid, position, reason):
+        """Add rows to ``lost.csv``: (n,) gid and (n, 3) position [m] of the particles lost."""
+        for number, place in zip(gid, position, strict=True):
+            self._tables["lost"].append([step, time, number, *place, reason])
+
+    def write_case(self, text):
+        """Write ``case.toml``: the resolved case as TOML."""
+        with replacing(self.case) as draft:
+            draft.write_text(text, encoding="utf-8")
+
+    def write_run(self, outcome, particles, reason=None):
+        """Write ``run.json``, in place of the earlier one.
+
+        Parameters
+        ----------
+        outcome : str
+            "running", or how the run ended.
+        particles : dict of str to int
+            Particle counts.
+        reason : str, optional
+            Why the run stopped.
+        """
+        record = {
+            **self._environment,
+            "started": self._started,
+            "ended": None if outcome == "running" else _now(),
+            "wall_time [s]": round(self._earlier_seconds + monotonic() - self._began, 3),
+            "resumed": self._resumed,
+            "particles": {name: int(count) for name, count in particles.items()},
+            "outcome": outcome,
+            "reason": reason,
+        }
+        with replacing(self.run) as draft:
+            draft.write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+
+    def flush(self):
+        """Bring the tables up to date on the disk.
+
+        To be called before a checkpoint is written: a run that goes on from it keeps the rows up to
+        its step, so they must be there after a kill.
+        """
+        for table in self._tables.values():
+            table.flush()
+
+    def close(self):
+        """Close the tables."""
+        for table in self._tables.values():
+            table.close()
+
+
+def _bad_out(path, what):
+    return ValueError(
+        f"--out: '{path}' {what}; allowed: a new or an empty folder that can be written"
+    )
+
+
+def _now():
+    """The time of day, with its zone."""
+    return datetime.now(UTC).isoformat(timespec="seconds")

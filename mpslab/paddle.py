@@ -1,0 +1,100 @@
+"""The motion of the wavemaker's face, as every wavemaker hands it to the run."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+SAMPLES = 400  # to a period: finds the extremes of a sine to 3e-5 of its amplitude
+
+
+@dataclass(frozen=True)
+class Paddle:
+    """A piston that starts at rest at X = 0; X points onshore, into the water.
+
+    Attributes
+    ----------
+    displacement : function (t [s]) -> X [m]
+        Displacement of the face; exactly 0 for t <= 0.
+    stroke : float [m]
+        Largest less smallest displacement during the run.
+    backmost, foremost : float [m]
+        Smallest and largest displacement during the run.
+    height : float [m]
+        Wave height that the theory expects of this motion; 0 where it says nothing.
+    note : str
+        The theory and its range in one line of plain words.
+    """
+
+    displacement: Callable[[float], float]
+    stroke: float
+    backmost: float
+    foremost: float
+    height: float
+    note: str
+
+
+def from_motion(motion: Callable, times: np.ndarray, height: float, note: str) -> Paddle:
+    """Paddle of a motion.
+
+    Parameters
+    ----------
+    motion : function (t : float or (n,) float64 [s]) -> X [m]
+        Displacement at t >= 0, with motion(0) = 0.
+    times : (n,) float64 [s]
+        Times from 0 to the end of the run among which the extremes are looked for.
+    height, note
+        As in `Paddle`.
+    """
+    path = motion(times)
+    backmost, foremost = float(np.min(path)), float(np.max(path))
+
+    def displacement(t: float) -> float:
+        return 0.0 if t <= 0.0 else float(motion(t))
+
+    return Paddle(displacement, foremost - backmost, backmost, foremost, height, note)
+
+
+def sample_times(end: float, period: float) -> np.ndarray:
+    """Times from 0 to end [s], close enough to find the extremes of a motion with that period."""
+    return np.linspace(0.0, end, 1 + math.ceil(SAMPLES * end / period))
+
+
+def soft_start(t, start: float):
+    """Factor that fades a motion in: s^2 (3 - 2 s), s = t / start, and 1 from t = start on [-].
+
+    Parameters
+    ----------
+    t : float or (n,) float64 [s]
+    start : float [s]
+        Duration; 0 for none.
+    """
+    if start == 0.0:
+        return np.ones_like(t)
+    s = np.clip(np.divide(t, start), 0.0, 1.0)
+    return s * s * (3.0 - 2.0 * s)
+
+
+def require_positive(key: str, value: float, unit: str) -> None:
+    """Raise ValueError unless a value is finite and above 0."""
+    if not 0.0 < value < math.inf:
+        raise ValueError(f"wavemaker.{key} = {value:g} {unit}: must be above 0 {unit}")
+
+
+def refuse_stroke(wavemaker) -> None:
+    """Raise ValueError if a stroke is given to a theory that derives its own."""
+    if wavemaker.stroke != 0.0:
+        raise ValueError(
+            f"wavemaker.stroke = {wavemaker.stroke:g} m: must be 0 for wavemaker.type ="
+            f" {wavemaker.type!r}, whose stroke follows from the height"
+        )
+
+
+def require_unbroken(key: str, value: float, limit: float, reason: str) -> None:
+    """Raise ValueError if a height or stroke is at or above the limit of breaking at the maker."""
+    if not value < limit:
+        raise ValueError(
+            f"wavemaker.{key} = {value:g} m: must be below {limit:.4g} m ({reason}),"
+            " or the wave breaks at the maker"
+        )

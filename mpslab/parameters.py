@@ -1,0 +1,309 @@
+"""The parameters of a case: one frozen dataclass for each table of its TOML file.
+
+Each table checks its own values when it is made. What depends on several tables is checked in
+`mpslab.cases`, which also fills in the values that follow from others (0 or None here).
+"""
+
+from dataclasses import dataclass, field, fields
+
+import numpy as np
+
+from mpslab.keys import CaseError, check_table, check_value, key, shown
+
+# A name becomes the heading of a column, or part of a file name.
+NAME = {"kind": "text", "forbidden": ",;\"'[]/\\#"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tank:
+    """The tank, from the wavemaker at x = 0 to the end wall; z = 0 is the lowest bed."""
+
+    length: float = key("length, from the wavemaker at rest to the end wall", unit="m", above=0)
+    depth: float = key("depth of the still water above z = 0", unit="m", above=0)
+    width: float = key("width across y; 0 for a 2-D tank (x-z)", 0.0, unit="m", low=0)
+    height: float = key(
+        "height of the walls; 0 for the larger of 3 depth and top of the bed + depth",
+        0.0,
+        unit="m",
+        low=0,
+    )
+    bed: tuple = key(
+        "bed as points [x, z] from x = 0 to x = length; [] for flat",
+        (),
+        kind="points",
+        unit="m",
+        low=0,
+    )
+    periodic: bool = key("true: periodic across y; false: side walls", False)
+
+    def __post_init__(self):
+        check_table(self)
+
+    def bed_height(self, x):
+        """Height of the bed at x [m], by straight lines between the points of the bed."""
+        along, up = zip(*self.bed, strict=True)
+        return np.interp(x, along, up)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fluid:
+    """The fluid and the gravity it is under."""
+
+    density: float = key("density", 1000.0, unit="kg/m3", above=0)
+    viscosity: float = key("kinematic viscosity", 1e-6, unit="m2/s", low=0)
+    gravity: float = key("acceleration of gravity", 9.81, unit="m/s2", above=0)
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Water:
+    """A box of water at rest; where a case has none, the tank is filled to its still depth."""
+
+    start: tuple = key(
+        "corner [x, y, z] with the smallest coordinates; y does not count in 2-D",
+        kind="point",
+        unit="m",
+        low=0,
+        name="from",
+    )
+    end: tuple = key(
+        "corner [x, y, z] with the largest coordinates", kind="point", unit="m", low=0, name="to"
+    )
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Initial:
+    """The state at t = 0."""
+
+    type: str = key(
+        "water at rest, or the velocities of a standing wave",
+        "rest",
+        choices=("rest", "standing_wave"),
+    )
+    amplitude: float = key("amplitude of the standing wave", 0.0, unit="m", low=0)
+    mode: int = key("half wavelengths of the standing wave in the tank", 1, low=1)
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wavemaker:
+    """The piston at x = 0."""
+
+    type: str = key(
+        "theory of the piston's motion; none for a fixed wall", "none", family="wavemakers"
+    )
+    height: float = key("wave height, crest to trough", 0.0, unit="m", low=0)
+    period: float = key("wave period", 0.0, unit="s", low=0)
+    stroke: float = key("stroke of the piston; 0 to follow from height", 0.0, unit="m", low=0)
+    start: float = key("time in which the motion fades in", 0.0, unit="s", low=0)
+    file: str = key("CSV file of time [s] and displacement [m]", "")
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Particles:
+    """How the tank is filled with particles."""
+
+    spacing: float = key("particle spacing d0", unit="m", above=0)
+    layers: int = key(
+        "layers of wall and dummy particles; 0 for enough to fill the larger radius",
+        0,
+        low=0,
+        high=20,
+    )
+    jitter: float = key(
+        "random displacement of the fluid at t = 0", 0.001, unit="spacings", low=0, high=0.3
+    )
+    seed: int = key("seed of the random displacement", 0, low=0, high=2**63 - 1)
+    bed: str = key(
+        "layers of particles along the slope, or on the lattice",
+        "smooth",
+        choices=("smooth", "staircase"),
+    )
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scheme:
+    """The numerical scheme. A recipe fills in the keys that a case does not set."""
+
+    recipe: str = key("set of models that fills in what is not set here", "standard")
+    gradient: str = key("pressure gradient", "corrected", family="gradients")
+    source: str = key("source of the Poisson equation", "mixed", family="sources")
+    laplacian: str = key("Laplacian of pressure", "standard", family="laplacians")
+    solver: str = key("solver of the Poisson equation", "iccg", family="solvers")
+    stabiliser: tuple = key(
+        "what keeps particles apart", ("shifting", "ds"), kind="texts", family="stabilisers"
+    )
+    tolerance: float = key("relative residual of the solver", 1e-6, above=0, high=0.1)
+    max_iterations: int = key("most iterations of the solver", 2000, low=1)
+    effective_radius: float = key(
+        "radius of gradient and number density", 2.1, unit="spacings", low=1.5, high=6
+    )
+    laplacian_radius: float = key("radius of the Laplacian", 2.1, unit="spacings", low=1.5, high=6)
+    relaxation: float = key("relaxation factor of the source 'density'", 0.2, above=0, high=1)
+    gamma: float = key("weight of the density error in the source 'mixed'", 0.01, low=0, high=1)
+    surface_threshold: float = key(
+        "number density over n0 below which a particle is free surface", 0.97, above=0, high=1
+    )
+    shifting_strength: float = key("strength of 'shifting'", 0.1, low=0, high=1)
+    ds_distance: float = key("distance kept by 'ds'", 0.9, unit="spacings", above=0, high=1)
+    collision_distance: float = key(
+        "distance kept by 'collision'", 0.5, unit="spacings", above=0, high=1
+    )
+    restitution: float = key("coefficient of restitution of 'collision'", 0.2, low=0, high=1)
+    clip_pressure: bool = key("set negative pressure to zero", True)
+    wall_slip: bool = key("leave walls out of the viscous term", True)
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Time:
+    """The end of the run and the limits of the time step."""
+
+    end: float = key("end of the run", unit="s", above=0)
+    courant: float = key("dt <= courant spacing / largest speed", 0.2, above=0, high=1)
+    viscous: float = key("dt <= viscous spacing^2 / viscosity", 0.2, above=0, high=1)
+    growth: float = key("dt <= growth last dt", 1.1, above=1, high=10)
+    maximum: float = key(
+        "largest dt; 0 for 0.3 spacing / sqrt(gravity depth)", 0.0, unit="s", low=0
+    )
+    start: float = key("first dt; 0 for maximum / 10", 0.0, unit="s", low=0)
+    minimum: float = key(
+        "dt below which the run stops; 0 for maximum / 10000", 0.0, unit="s", low=0
+    )
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Parallel:
+    """How the tank is shared out among processes."""
+
+    balance: str = key(
+        "where to cut the tank", "optimal", choices=("static", "centroid", "optimal")
+    )
+    rebalance_every: int = key("time steps from cut to cut", 20, low=1)
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Output:
+    """What is written, and when."""
+
+    interval: float = key("time between frames of particles; 0 for end / 50", 0.0, unit="s", low=0)
+    fields: tuple = key(
+        "fields of a frame",
+        ("velocity", "pressure", "kind", "surface"),
+        kind="texts",
+        choices=("velocity", "pressure", "number_density", "kind", "surface"),
+    )
+    checkpoint: float = key("time between checkpoints; 0 for end / 5", 0.0, unit="s", low=0)
+    gauge_interval: float = key(
+        "time between readings of gauges and probes; 0 for every step", 0.0, unit="s", low=0
+    )
+    pictures: tuple = key(
+        "times of the pictures; [] to spread them over the run", (), kind="numbers", unit="s", low=0
+    )
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gauge:
+    """A wave gauge: reads the surface elevation at x, y."""
+
+    name: str = key("heading of its column", **NAME)
+    x: float = key("distance from the wavemaker at rest", unit="m", low=0)
+    y: float | None = key("place across the tank; mid width if left out", None, unit="m", low=0)
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Probe:
+    """A probe: reads pressure and velocity at x, y, z."""
+
+    name: str = key("heading of its columns", **NAME)
+    x: float = key("distance from the wavemaker at rest", unit="m", low=0)
+    y: float | None = key("place across the tank; mid width if left out", None, unit="m", low=0)
+    z: float = key("height above z = 0", unit="m", low=0)
+
+    def __post_init__(self):
+        check_table(self)
+
+
+# Tables of a case, in the order in which they are written; those of LISTS may come several times.
+TABLES = {
+    "tank": Tank,
+    "fluid": Fluid,
+    "initial": Initial,
+    "wavemaker": Wavemaker,
+    "particles": Particles,
+    "scheme": Scheme,
+    "time": Time,
+    "parallel": Parallel,
+    "output": Output,
+}
+LISTS = {"water": Water, "gauge": Gauge, "probe": Probe}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """Everything a run needs to know. `mpslab.load_case` makes one with nothing left open."""
+
+    name: str = key("short name of the case", "case", **NAME)
+    title: str = key("what the case shows", "")
+    tank: Tank
+    particles: Particles
+    time: Time
+    fluid: Fluid = field(default_factory=Fluid)
+    initial: Initial = field(default_factory=Initial)
+    wavemaker: Wavemaker = field(default_factory=Wavemaker)
+    scheme: Scheme = field(default_factory=Scheme)
+    parallel: Parallel = field(default_factory=Parallel)
+    output: Output = field(default_factory=Output)
+    water: tuple[Water, ...] = ()
+    gauge: tuple[Gauge, ...] = ()
+    probe: tuple[Probe, ...] = ()
+
+    def __post_init__(self):
+        for item in fields(self):
+            value = getattr(self, item.name)
+            if item.name in TABLES:
+                _require(value, TABLES[item.name], item.name)
+            elif item.name in LISTS:
+                value = tuple(value)
+                for one in value:
+                    _require(one, LISTS[item.name], item.name)
+            else:
+                value = check_value(item.name, value, item.metadata)
+            object.__setattr__(self, item.name, value)
+
+    @property
+    def dim(self) -> int:
+        """Number of space dimensions: 2 for a tank without width."""
+        return 3 if self.tank.width > 0.0 else 2
+
+
+def _require(value, kind, name):
+    if not isinstance(value, kind):
+        raise CaseError(f"{name} = {shown(value)}: must be made of mpslab.{kind.__name__}")

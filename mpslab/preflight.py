@@ -1,0 +1,182 @@
+"""What a case will be like, worked out before any step: size, cost, and the wave it asks for."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mpslab import bed as beds
+from mpslab import breaking, geometry, waves
+from mpslab.cases.checks import warnings
+from mpslab.particles import KIND_NAMES
+from mpslab.piston import make_paddle
+
+# Measured on one core of a 2023 server processor with the recipe "standard".
+SECONDS_PER_PARTICLE_STEP = {2: 2.4e-6, 3: 4.8e-6}
+BYTES_PER_PARTICLE = {2: 900, 3: 2200}
+BYTES_OF_PROGRAM = 120e6
+REGULAR = ("linear", "second_order", "cnoidal")
+
+
+@dataclass
+class Preflight:
+    """Findings about a case: lines of (name, value) under headings, and warnings."""
+
+    sections: dict = field(default_factory=dict)
+    warnings: list = field(default_factory=list)
+
+    def text(self):
+        """The findings as plain lines."""
+        lines = []
+        for heading, entries in self.sections.items():
+            lines.append(heading)
+            lines += [f"  {name:<28} {value}" for name, value in entries]
+        lines += [f"Warning: {warning}" for warning in self.warnings]
+        return "\n".join(lines)
+
+
+def preflight(case):
+    """Work out the findings for a case; runs no step.
+
+    Raises
+    ------
+    ValueError
+        If the wavemaker cannot make the wave, or there is no water.
+    """
+    paddle = make_paddle(case)
+    particles = geometry.build_particles(case, paddle.backmost if paddle else 0.0)
+    report = Preflight(warnings=list(warnings(case)))
+    report.sections["Particles"] = _particles(case, particles)
+    report.sections["Cost (one core, rough)"] = _cost(case, len(particles))
+    if paddle and paddle.stroke > 0.0:
+        report.sections["Wavemaker"] = _wavemaker(case, paddle)
+        height = paddle.height or case.wavemaker.height
+        if height > 0.0:
+            describe = _regular_wave if case.wavemaker.type in REGULAR else _solitary_wave
+            report.sections["Wave"] = describe(case, height, report.warnings)
+    return report
+
+
+def _particles(case, particles):
+    counts = np.bincount(particles.kind, minlength=len(KIND_NAMES))
+    kinds = ", ".join(f"{n:,} {name}" for n, name in zip(counts, KIND_NAMES, strict=True) if n)
+    spacing = case.particles.spacing
+    size = f"{geometry.effective_length(case):.4g} m long"
+    if case.tank.width > 0.0:
+        size += f", {geometry.rows_across(case) * spacing:.4g} m wide"
+    return [
+        ("particles", f"{len(particles):,} ({kinds})"),
+        ("spacing", f"{spacing * 1e3:g} mm, {case.tank.depth / spacing:.3g} over the depth"),
+        ("tank in whole spacings", size),
+    ]
+
+
+def _cost(case, n):
+    dt = _expected_dt(case)
+    steps = math.ceil(case.time.end / dt)
+    seconds = steps * n * SECONDS_PER_PARTICLE_STEP[case.dim]
+    memory = (BYTES_OF_PROGRAM + n * BYTES_PER_PARTICLE[case.dim]) / 1e6
+    return [
+        ("expected time step", f"{dt:.2g} s"),
+        ("expected steps", f"{steps:,} to t = {case.time.end:g} s"),
+        ("expected run time", _duration(seconds)),
+        ("expected memory", f"{memory:,.0f} MB"),
+    ]
+
+
+def _expected_dt(case):
+    """Courant limit at the speed of water that fell from the highest water to the lowest bed."""
+    top = max([box.end[2] for box in case.water], default=case.tank.depth)
+    speed = math.sqrt(case.fluid.gravity * top)
+    return min(case.time.maximum, case.time.courant * case.particles.spacing / speed)
+
+
+def _duration(seconds):
+    if seconds < 120.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 7200.0 else f"{seconds / 3600:.1f} h"
+
+
+def _wavemaker(case, paddle):
+    return [
+        ("type", case.wavemaker.type),
+        ("stroke", f"{paddle.stroke * 1e3:.3g} mm"),
+        ("theory", paddle.note),
+    ]
+
+
+def _regular_wave(case, height, notes):
+    depth, gravity, period = case.tank.depth, case.fluid.gravity, case.wavemaker.period
+    length = waves.wavelength(period, depth, gravity)
+    lines = [
+        ("height H", f"{height * 1e3:.3g} mm, {height / case.particles.spacing:.3g} spacings"),
+        ("wavelength L", f"{length:.4g} m (linear theory)"),
+        ("kh", f"{2 * math.pi * depth / length:.3g}"),
+        ("H/h, H/L", f"{height / depth:.3g}, {height / length:.3g}"),
+        ("Ursell number H L^2/h^3", f"{waves.ursell(height, length, depth):.3g}"),
+        ("second order piston theory", _madsen(height, length, depth)),
+    ]
+    return lines + _beach(case, height, notes)
+
+
+def _madsen(height, length, depth):
+    limit = f"H L^2/h^3 < {breaking.MADSEN_URSELL_LIMIT:.3g}"
+    inside = breaking.madsen_in_range(height, length, depth)
+    return f"in range ({limit})" if inside else f"out of range ({limit}); cnoidal regime"
+
+
+def _beach(case, height, notes):
+    slope = waterline_slope(case)
+    if slope <= 0.0:
+        return []
+    depth, gravity, period = case.tank.depth, case.fluid.gravity, case.wavemaker.period
+    deep_height = height / waves.shoaling_coefficient(period, depth, gravity)
+    deep_length = waves.deep_wavelength(period, gravity)
+    xi = breaking.surf_similarity(slope, deep_height, deep_length)
+    kind = breaking.breaker_type(xi)
+    lines = [("surf similarity", f"{xi:.3g} on the slope of {slope:.3g}: {kind}")]
+    if kind == "surging":
+        return lines
+    at, breaker = breaking.breaking_point(deep_height, period, slope, gravity)
+    runup = breaking.hunt_runup(deep_height, period, slope, gravity)
+    lines.append(
+        ("breaking point (Goda 2010)", f"depth {at * 1e3:.3g} mm, height {breaker * 1e3:.3g} mm")
+    )
+    lines.append(("run-up (Hunt)", f"{runup * 1e3:.3g} mm above still water"))
+    top = max(z for _, z in case.tank.bed)
+    if top < depth + runup:
+        notes.append(
+            f"run-up of {depth + runup:.4g} m would reach over the beach, whose top is at {top:g} m"
+        )
+    if at < 5.0 * case.particles.spacing:
+        notes.append(
+            f"the wave breaks in a depth of {at / case.particles.spacing:.2g} spacings; a clear "
+            f"plunging jet wants 5 or more (particles.spacing <= {at / 5:.2g} m)"
+        )
+    return lines
+
+
+def _solitary_wave(case, height, notes):
+    depth, gravity = case.tank.depth, case.fluid.gravity
+    celerity = waves.solitary_celerity(height, depth, gravity)
+    lines = [
+        ("height H", f"{height * 1e3:.3g} mm, {height / case.particles.spacing:.3g} spacings"),
+        ("H/h", f"{height / depth:.3g}"),
+        ("celerity", f"{celerity:.3g} m/s"),
+    ]
+    slope = waterline_slope(case)
+    if slope > 0.0:
+        breaks = breaking.synolakis_breaks(height, depth, slope)
+        lines.append(
+            ("run-up on the beach", "breaks" if breaks else "does not break (Synolakis 1987)")
+        )
+    return lines
+
+
+def waterline_slope(case):
+    """Slope of the bed where the still water meets it [-]; 0 where it meets the end wall."""
+    x, z = np.array(case.tank.bed).T
+    dry = np.flatnonzero(z > case.tank.depth)
+    if len(dry) == 0:
+        return 0.0
+    return float(beds.slope(case.tank.bed, x[dry[0]] - 1e-9))

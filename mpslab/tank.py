@@ -1,0 +1,158 @@
+"""The command line: ``python -m mpslab.tank``."""
+
+import argparse
+import signal
+import sys
+from pathlib import Path
+
+from mpslab import cases, pictures
+from mpslab.preflight import preflight
+from mpslab.progress import make_progress
+from mpslab.simulation import Simulation
+from mpslab.watch import RunFailed
+
+DEFAULT_CASE = "plunging_breaker"
+BAD_INPUT, FAILED, INTERRUPTED = 2, 3, 130
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line."""
+
+    def error(self, message):
+        raise ValueError(f"{message} (see --help)")
+
+
+def _parser():
+    parser = _Parser(
+        prog="python -m mpslab.tank",
+        description="Run a case of the particle wave tank.",
+        epilog="Example: python -m mpslab.tank plunging_breaker --set particles.spacing=0.002",
+    )
+    parser.add_argument("case", nargs="?", metavar="CASE", help="built-in case or TOML file")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
+                        help="change a key of the case; may be given several times")  # fmt: skip
+    parser.add_argument("--out", metavar="DIR", help="new or empty folder for the results")
+    parser.add_argument("--until", type=float, metavar="SECONDS", help="stop at this time")
+    parser.add_argument("--resume", metavar="DIR", help="go on with the run in this folder")
+    parser.add_argument("--check", action="store_true", help="look at the case, run nothing")
+    parser.add_argument("--list", action="store_true", help="list the built-in cases")
+    parser.add_argument("--show", metavar="CASE", help="print the file of a built-in case")
+    return parser
+
+
+def main(arguments=None):
+    """Run the command line; returns the exit status.
+
+    0: done; 2: bad input, nothing done; 3: the run went wrong; 130: stopped by Ctrl-C.
+    """
+    try:
+        options = _parser().parse_args(arguments)
+        return _dispatch(options)
+    except ValueError as error:
+        print(f"mpslab: {error}", file=sys.stderr)
+        return BAD_INPUT
+
+
+def _dispatch(options):
+    if options.list:
+        for name in cases.names():
+            print(f"{name:<18} {cases.load_case(name).title}")
+        return 0
+    if options.show:
+        print(cases.text(options.show), end="")
+        return 0
+    if options.resume:
+        return _run(_resumed(options), options.until)
+    changes = dict(cases.parse_set(item) for item in options.set)
+    case = cases.load_case(options.case or DEFAULT_CASE, changes)
+    _check_until(options.until, case)
+    report = preflight(case)
+    if options.check:
+        print(f"{case.name}: {case.title}\n{report.text()}")
+        return 0
+    for warning in report.warnings:
+        print(f"Warning: {warning}", file=sys.stderr)
+    return _run(Simulation(case, options.out or _free_folder(case.name)), options.until)
+
+
+def _resumed(options):
+    for name in ("case", "set", "out", "check"):
+        if getattr(options, name):
+            raise ValueError(
+                f"--resume {options.resume}: goes on with the case and in the folder of that "
+                f"run; not allowed together with {'CASE' if name == 'case' else '--' + name}"
+            )
+    simulation = Simulation.resume(options.resume)
+    _check_until(options.until, simulation.case)
+    return simulation
+
+
+def _check_until(until, case):
+    if until is not None and not 0.0 < until <= case.time.end:
+        raise ValueError(
+            f"--until = {until:g} s: must be > 0 and <= time.end = {case.time.end:g} s"
+        )
+
+
+def _free_folder(name):
+    """runs/NAME, or runs/NAME-2 and so on where there is one already."""
+    folder, number = Path("runs") / name, 1
+    while folder.exists():
+        number += 1
+        folder = Path("runs") / f"{name}-{number}"
+    return folder
+
+
+def _run(simulation, until):
+    folder = simulation.folder.path
+    until = simulation.case.time.end if until is None else until
+    print(f"{simulation.case.name}: {len(simulation.particles):,} particles, to t = {until:g} s, "
+          f"results in {folder}", flush=True)  # fmt: skip
+    earlier = _stop_on_signals(simulation)
+    try:
+        with make_progress(until, simulation.time) as progress:
+            simulation.run(until, progress)
+    except RunFailed as failure:
+        print(f"mpslab: run stopped: {failure}\nThe state to look at is in {folder / 'failed.h5'}; "
+              f"the last good one in {folder / 'checkpoint.h5'}", file=sys.stderr)  # fmt: skip
+        return FAILED
+    finally:
+        for number, handler in earlier.items():
+            signal.signal(number, handler)
+    return _report(simulation)
+
+
+def _stop_on_signals(simulation):
+    """Let Ctrl-C end the run after the step in hand."""
+
+    def stop(number, frame):
+        simulation.stop_requested = True
+
+    return {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
+
+
+def _report(simulation):
+    folder = simulation.folder.path
+    _print_cost(simulation)
+    if simulation.outcome == "interrupted":
+        print(f"Stopped at t = {simulation.time:.4f} s; go on with\n"
+              f"  python -m mpslab.tank --resume {folder}")  # fmt: skip
+        return INTERRUPTED
+    print(f"Done: t = {simulation.time:.4f} s after {simulation.step} steps, "
+          f"{simulation.lost} particles lost. Results in {folder}, pictures:")  # fmt: skip
+    for picture in pictures.draw_run(folder):
+        print(f"  {picture}")
+    return 0
+
+
+def _print_cost(simulation):
+    phases, steps = simulation.phases, len(simulation.steps)
+    total = float(simulation.steps["seconds"].sum())
+    if steps == 0:
+        return
+    shares = ", ".join(f"{name} {100 * s / total:.0f} %" for name, s in phases.items())
+    print(f"{total / steps:.3g} s a step: {shares}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

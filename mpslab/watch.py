@@ -1,0 +1,95 @@
+"""Watch over a run: particles that leave the tank, and states from which no step may follow."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mpslab import bed as beds
+from mpslab.geometry import effective_length, rows_across
+
+MOST_LOST = 1e-3  # of the fluid particles at the start
+
+
+class RunFailed(RuntimeError):
+    """The run cannot go on; the message says why, at which step and time, and where."""
+
+
+@dataclass(frozen=True)
+class Lost:
+    """Fluid particles that left the tank: row numbers (n,) int and the side they left by."""
+
+    rows: np.ndarray
+    reason: str
+
+
+def find_lost(case, particles, face):
+    """Fluid particles behind a wall by more than a spacing, as a list of `Lost`.
+
+    Parameters
+    ----------
+    case : mpslab.parameters.Case
+    particles : ParticleSet
+    face : float [m]
+        x of the wavemaker's face.
+    """
+    spacing = case.particles.spacing
+    position = particles.position
+    sides = [
+        ("behind the wavemaker", position[:, 0] < face - spacing),
+        ("behind the end wall", position[:, 0] > effective_length(case) + spacing),
+        ("below the bed", position[:, 2] < _bed(case, position[:, 0]) - spacing),
+    ]
+    if case.tank.width > 0.0 and not case.tank.periodic:
+        width = rows_across(case) * spacing
+        out = (position[:, 1] < -spacing) | (position[:, 1] > width + spacing)
+        sides.append(("behind a side wall", out))
+    found, seen = [], ~particles.fluid
+    for reason, outside in sides:
+        rows = np.flatnonzero(outside & ~seen)
+        if len(rows):
+            found.append(Lost(rows, reason))
+            seen = seen | outside
+    return found
+
+
+def _bed(case, x):
+    return beds.elevation(case.tank.bed, x)
+
+
+def check_step(flow, report, dt, step):
+    """Raise RunFailed after a step that must not be followed by another."""
+    when = f"step {step}, t = {flow.time:.6g} s"
+    bad = np.flatnonzero(~np.isfinite(flow.particles.position).all(axis=1)
+                         | ~np.isfinite(flow.particles.velocity).all(axis=1))  # fmt: skip
+    if len(bad):
+        raise RunFailed(f"not a number in {len(bad)} particles, {when}, {_place(flow, bad[0])}")
+    if not report.converged:
+        raise RunFailed(
+            f"pressure did not converge: residual {report.residual:.3g} after "
+            f"{report.iterations} iterations (scheme.tolerance = "
+            f"{flow.case.scheme.tolerance:g}), {when}, {_fastest(flow)}"
+        )
+    if dt < flow.case.time.minimum:
+        raise RunFailed(
+            f"time step {dt:.3g} s below time.minimum = {flow.case.time.minimum:.3g} s, {when}, "
+            f"{_fastest(flow)}"
+        )
+
+
+def check_lost(flow, lost, at_start, step):
+    """Raise RunFailed when too many particles have left the tank."""
+    if lost > MOST_LOST * at_start:
+        raise RunFailed(
+            f"{lost} of {at_start} fluid particles lost, more than 0.1 %, step {step}, "
+            f"t = {flow.time:.6g} s, {_fastest(flow)}"
+        )
+
+
+def _place(flow, row):
+    x, y, z = flow.particles.position[row]
+    return f"particle {flow.particles.gid[row]} at x = {x:.4g}, y = {y:.4g}, z = {z:.4g} m"
+
+
+def _fastest(flow):
+    speed = np.where(flow.particles.fluid, np.abs(flow.particles.velocity).max(axis=1), -1.0)
+    return "fastest " + _place(flow, int(np.argmax(speed)))
