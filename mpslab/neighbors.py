@@ -7,17 +7,21 @@ import numpy as np
 from mpslab.kernels import cells, neighbors
 
 
+MOST_CELLS = 2**24
+
+
 def _cell_grid(lower, upper, radius, width):
     """Number and size of the cells along x, y and z; each is at least as wide as the radius."""
     extent = np.maximum(upper - lower, radius)
     if width > 0.0:
         extent[1] = width
-    count = np.maximum((extent / radius).astype(np.int64), 1)
+    count = np.maximum(np.fmin(extent / radius, MOST_CELLS).astype(np.int64), 1)
+    # A runaway particle stretches the grid: wider cells, rather than more than memory holds.
+    while count.prod(dtype=float) > MOST_CELLS:
+        count[np.argmax(count)] //= 2
     if width > 0.0 and count[1] < 3:
         # With two cells around, the one to the left is the one to the right.
         count[1] = 1
-    while count.prod() > 2**27:
-        count = np.maximum(count // 2, 1)
     return count.astype(np.int32), extent / count
 
 

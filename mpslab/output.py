@@ -222,7 +222,7 @@ class RunFolder:
         with replacing(self.case) as draft:
             draft.write_text(text, encoding="utf-8")
 
-    def write_run(self, outcome, particles, reason=None):
+    def write_run(self, outcome, particles, phases, reason=None):
         """Write ``run.json``, in place of the earlier one.
 
         Parameters
@@ -231,6 +231,8 @@ class RunFolder:
             "running", or how the run ended.
         particles : dict of str to int
             Particle counts.
+        phases : dict of str to float
+            Seconds spent in each phase of the steps since the start or the restart.
         reason : str, optional
             Why the run stopped.
         """
@@ -241,6 +243,7 @@ class RunFolder:
             "wall_time [s]": round(self._earlier_seconds + monotonic() - self._began, 3),
             "resumed": self._resumed,
             "particles": {name: int(count) for name, count in particles.items()},
+            "phases [s]": {name: round(seconds, 3) for name, seconds in phases.items()},
             "outcome": outcome,
             "reason": reason,
         }

@@ -49,9 +49,9 @@ class Tank:
 class Fluid:
     """The fluid and the gravity it is under."""
 
-    density: float = key("density", 1000.0, unit="kg/m3", above=0)
-    viscosity: float = key("kinematic viscosity", 1e-6, unit="m2/s", low=0)
-    gravity: float = key("acceleration of gravity", 9.81, unit="m/s2", above=0)
+    density: float = key("density", 1000.0, unit="kg/m3", above=0, high=1e5)
+    viscosity: float = key("kinematic viscosity", 1e-6, unit="m2/s", low=0, high=1e3)
+    gravity: float = key("acceleration of gravity", 9.81, unit="m/s2", above=0, high=1e3)
 
     def __post_init__(self):
         check_table(self)
@@ -123,7 +123,7 @@ class Particles:
     jitter: float = key(
         "random displacement of the fluid at t = 0", 0.001, unit="spacings", low=0, high=0.3
     )
-    seed: int = key("seed of the random displacement", 0, low=0, high=2**63 - 1)
+    seed: int = key("seed of the random displacement", 0, low=0, high=10**9)
     bed: str = key(
         "layers of particles along the slope, or on the lattice",
         "smooth",
@@ -306,4 +306,6 @@ class Case:
 
 def _require(value, kind, name):
     if not isinstance(value, kind):
-        raise CaseError(f"{name} = {shown(value)}: must be made of mpslab.{kind.__name__}")
+        raise CaseError(
+            f"{name} = {shown(value)}: must be made of mpslab.parameters.{kind.__name__}"
+        )

@@ -1,5 +1,7 @@
 """What a run leaves: series in memory and, with a folder, files."""
 
+import warnings
+
 import numpy as np
 
 from mpslab import checkpoint, diagnostics, gauges, vtkhdf
@@ -31,9 +33,18 @@ class Record:
         time = None if step is None else self.flow.time
         names = [g.name for g in self.case.gauge], [p.name for p in self.case.probe]
         self.folder.open_tables(*names, last_step=step, last_time=time)
-        if step is not None and self.folder.particles.exists():
-            vtkhdf.truncate(self.folder.particles, time)
+        if step is not None:
+            self._cut_frames(time)
         self.frames = vtkhdf.ParticleSeries(self.folder.particles, self.case.output.fields)
+
+    def _cut_frames(self, time):
+        """Drop the frames after a time; a file that a kill damaged is set aside."""
+        path = self.folder.particles
+        try:
+            vtkhdf.truncate(path, time)
+        except ValueError as error:
+            path.rename(path.with_suffix(".damaged.vtkhdf"))
+            warnings.warn(f"{error}; set aside, the frames begin anew", stacklevel=2)
 
     def add_step(self, **entries):
         """Add a row; the keywords are the keys of `mpslab.output.STEP_COLUMNS`."""
@@ -77,13 +88,14 @@ class Record:
         if self.folder:
             self.folder.flush()
             checkpoint.write(path or self.folder.checkpoint, self.flow.particles, state)
+            self.write_run("running")
 
     def write_run(self, outcome, reason=None):
         """Write `run.json`."""
         if self.folder:
             kinds = np.bincount(self.flow.particles.kind, minlength=len(KIND_NAMES))
             counts = dict(zip(KIND_NAMES, kinds, strict=True))
-            self.folder.write_run(outcome, counts, reason)
+            self.folder.write_run(outcome, counts, self.flow.stopwatch.seconds, reason)
 
     def series(self, which):
         """A table as a structured array: "steps", "gauges" or "probes"."""

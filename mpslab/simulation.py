@@ -11,7 +11,7 @@ from mpslab.particles import ParticleSet
 from mpslab.piston import Piston, make_paddle
 from mpslab.record import Record
 from mpslab.step import advance, make_flow
-from mpslab.watch import RunFailed, check_lost, check_step, find_lost
+from mpslab.watch import RunFailed, check_finite, check_lost, check_step, find_lost
 
 
 class Simulation:
@@ -163,6 +163,7 @@ class Simulation:
     def advance(self):
         """One time step, written down; raises RunFailed when no other may follow."""
         began, before = clock.perf_counter(), self.time
+        check_finite(self._flow, self.step)
         speed = diagnostics.max_speed(self.particles)
         self.dt, limit = timestep.choose(self.case, self.dt, speed)
         report = advance(self._flow, self.dt)

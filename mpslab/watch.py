@@ -56,13 +56,20 @@ def _bed(case, x):
     return beds.elevation(case.tank.bed, x)
 
 
+def check_finite(flow, step):
+    """Raise RunFailed where a position or velocity is not a number."""
+    finite = np.isfinite(flow.particles.position) & np.isfinite(flow.particles.velocity)
+    bad = np.flatnonzero(~finite.all(axis=1))
+    if len(bad):
+        raise RunFailed(
+            f"not a number in {len(bad)} particles, {_when(flow, step)}, {_place(flow, bad[0])}"
+        )
+
+
 def check_step(flow, report, dt, step):
     """Raise RunFailed after a step that must not be followed by another."""
-    when = f"step {step}, t = {flow.time:.6g} s"
-    bad = np.flatnonzero(~np.isfinite(flow.particles.position).all(axis=1)
-                         | ~np.isfinite(flow.particles.velocity).all(axis=1))  # fmt: skip
-    if len(bad):
-        raise RunFailed(f"not a number in {len(bad)} particles, {when}, {_place(flow, bad[0])}")
+    check_finite(flow, step)
+    when = _when(flow, step)
     if not report.converged:
         raise RunFailed(
             f"pressure did not converge: residual {report.residual:.3g} after "
@@ -76,12 +83,16 @@ def check_step(flow, report, dt, step):
         )
 
 
+def _when(flow, step):
+    return f"step {step}, t = {flow.time:.6g} s"
+
+
 def check_lost(flow, lost, at_start, step):
     """Raise RunFailed when too many particles have left the tank."""
     if lost > MOST_LOST * at_start:
         raise RunFailed(
-            f"{lost} of {at_start} fluid particles lost, more than 0.1 %, step {step}, "
-            f"t = {flow.time:.6g} s, {_fastest(flow)}"
+            f"{lost} of {at_start} fluid particles lost, more than 0.1 %, "
+            f"{_when(flow, step)}, {_fastest(flow)}"
         )
 
 

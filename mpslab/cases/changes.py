@@ -40,7 +40,7 @@ def apply(tables: dict, overrides: dict) -> dict:
         for key in RECIPES["standard"]:
             tables["scheme"].pop(key, None)
     for name, value in overrides.items():
-        _put(tables, str(name), value)
+        _put(tables, str(name), copy.deepcopy(value))
     return tables
 
 

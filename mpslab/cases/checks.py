@@ -101,7 +101,8 @@ def _check_spacing(case):
         spacing,
         f"<= {most:g} m, a third of the water at the wavemaker, or there is no fluid",
     )
-    count = tank.length * tank.depth * (tank.width / spacing if case.dim == 3 else 1.0) / spacing**2
+    count = (tank.length / spacing) * (tank.depth / spacing)
+    count *= tank.width / spacing if case.dim == 3 else 1.0
     _require(
         count <= MOST_PARTICLES,
         "particles.spacing",

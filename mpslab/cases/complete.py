@@ -9,8 +9,8 @@ from mpslab.parameters import Case
 def complete(case: Case) -> Case:
     """The case with nothing left open; a case that is complete comes back equal.
 
-    Left open by 0 or [], or left out: wall height, bed, wall layers, limits of the time step, output
-    intervals, and y of the instruments. In a 2-D tank every y is 0.
+    Left open by 0 or [], or left out: wall height, bed, wall layers, limits of the time step,
+    output intervals, and y of the instruments. In a 2-D tank every y is 0.
     """
     tank = _tank(case.tank)
     return replace(
@@ -32,7 +32,7 @@ def least_layers(case: Case) -> int:
 
 def largest_dt(case: Case) -> float:
     """Largest time step where none is given, 0.3 d0 / sqrt(g h) [s]."""
-    return 0.3 * case.particles.spacing / sqrt(case.fluid.gravity * case.tank.depth)
+    return 0.3 * case.particles.spacing / (sqrt(case.fluid.gravity) * sqrt(case.tank.depth))
 
 
 def _tank(tank):

@@ -1,6 +1,6 @@
 """Second-order piston for regular waves (Madsen 1971), which makes no free second harmonic."""
 
-from math import acos, pi, sqrt, tanh
+from math import acos, sqrt, tanh
 
 import numpy as np
 
@@ -57,5 +57,5 @@ def _require_range(wavemaker, wave, depth):
     raise ValueError(
         f"wavemaker.{key} = {scale * wave.height:g} m: must be below {scale * limit:.4g} m for"
         f" wavemaker.type = 'second_order' (H L^2/h^3 = {wave.ursell:.1f}, Madsen's theory holds"
-        f" below 8 pi^2/3 = {8.0 * pi**2 / 3.0:.1f}); take 'cnoidal' for so long a wave"
+        f" below 8 pi^2/3 = {breaking.MADSEN_URSELL_LIMIT:.1f}); take 'cnoidal' for so long a wave"
     )

@@ -1,0 +1,92 @@
+"""Small tanks, lattices and clouds of particles that the tests share."""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from mpslab import geometry
+from mpslab.cases import from_tables
+from mpslab.neighbors import NeighborList
+from mpslab.particles import make_particles
+from mpslab.piston import Piston, make_paddle
+from mpslab.step import advance, make_flow
+
+TABLES = {
+    "tank": {"length": 0.04, "depth": 0.02},
+    "particles": {"spacing": 0.002, "jitter": 0.0},
+    "time": {"end": 1.0},
+}
+
+
+def make_case(changes=None):
+    """Closed 2-D tank of 20 x 10 particles; `changes` replaces values by key, "tank.depth"."""
+    tables = {name: dict(values) for name, values in TABLES.items()}
+    for key, value in (changes or {}).items():
+        table, _, name = key.partition(".")
+        if name:
+            tables.setdefault(table, {})[name] = value
+        else:
+            tables[table] = value
+    return from_tables(tables, "test")
+
+
+def flow_of(case, keep=None):
+    """Flow of a case at t = 0; `keep` picks particles from the set."""
+    paddle = make_paddle(case)
+    particles = geometry.build_particles(case, paddle.backmost if paddle else 0.0)
+    if keep is not None:
+        particles = particles.take(keep(particles))
+    piston = Piston(particles, paddle, case.particles.spacing)
+    return make_flow(case, particles, piston, geometry.period(case))
+
+
+def run(flow, steps, dt):
+    """Advance a flow by equal steps; every solve has to converge."""
+    for _ in range(steps):
+        assert advance(flow, dt).converged
+    return flow
+
+
+def lattice(dim, half):
+    """Cubic lattice of (2 half + 1)^dim points about the origin, spacing 1, (n, 3)."""
+    line = np.arange(-half, half + 1.0)
+    across = line if dim == 3 else np.zeros(1)
+    return np.stack(np.meshgrid(line, across, line, indexing="ij"), axis=-1).reshape(-1, 3)
+
+
+def inside(position, half):
+    """Mask of the points whose coordinates are all at most `half`."""
+    return np.abs(position).max(axis=1) <= half
+
+
+def cloud(dim, n, seed, jitter=None):
+    """Random points at one per unit volume, or a shaken lattice of at least n points; (n, 3)."""
+    random = np.random.default_rng(seed)
+    side = n ** (1.0 / dim)
+    if jitter is None:
+        position = random.uniform(-0.5 * side, 0.5 * side, (n, 3))
+    else:
+        position = lattice(dim, int(np.ceil((side - 1.0) / 2.0)))
+        position += random.uniform(-jitter, jitter, position.shape)
+    if dim == 2:
+        position[:, 1] = 0.0
+    return position
+
+
+def neighbors_of(position, radius, width=0.0, active=None):
+    """Neighbour list of positions."""
+    return NeighborList().build(np.ascontiguousarray(position), radius, width, active)
+
+
+def particles_at(position, kind=0):
+    """Particles at rest, all fluid unless `kind` says something else."""
+    return make_particles(position, np.broadcast_to(kind, len(position)))
+
+
+def scheme(**changes):
+    """The keys of a scheme that models read, with the values of the standard recipe."""
+    values = {
+        "relaxation": 0.2, "gamma": 0.01, "shifting_strength": 0.1, "ds_distance": 0.9,
+        "collision_distance": 0.5, "restitution": 0.2,
+    }  # fmt: skip
+    return SimpleNamespace(**{**values, **changes})
