@@ -70,7 +70,7 @@ def _stack(case, x, bottom, top):
     ground = float(beds.elevation(case.tank.bed, x))
     if case.particles.bed == "staircase":
         ground = np.ceil(ground / spacing - 0.5) * spacing
-        first = max(ground, round(bottom / spacing) * spacing) + 0.5 * spacing
+        first = max(ground, np.round(bottom / spacing) * spacing) + 0.5 * spacing
     elif bottom > ground:
         first = bottom + 0.5 * spacing
     else:
@@ -86,11 +86,12 @@ def _water_section(case):
     boxes = [(b.start, b.end) for b in case.water] or [
         ((0.0, 0.0, -np.inf), (effective_length(case), width, case.tank.depth))
     ]
-    rows = []
+    rows, spacing = [], case.particles.spacing
     for start, end in boxes:
+        sides = [round(start[1] / spacing) * spacing, round(end[1] / spacing) * spacing]
         for x in _columns(case, start[0], min(end[0], effective_length(case))):
             stack = _stack(case, x, start[2], end[2])
-            across = np.broadcast_to([start[1], end[1]], (len(stack), 2))
+            across = np.broadcast_to(sides, (len(stack), 2))
             rows.append(np.hstack([stack, across]))
     return np.vstack(rows) if rows else np.zeros((0, 4))
 
@@ -116,6 +117,8 @@ def _smooth_bed(case, behind):
     rows = [beds.layer(points, (k + 0.5) * spacing, spacing) for k in range(layers)]
     kinds = [np.full(len(r), DUMMY if k else WALL, np.int8) for k, r in enumerate(rows)]
     outside = rows[0][:, 0] > effective_length(case) + spacing
+    if case.wavemaker.type == "none":
+        outside |= rows[0][:, 0] < -spacing
     kinds[0][outside] = DUMMY
     return np.vstack(rows), np.concatenate(kinds)
 
@@ -133,6 +136,8 @@ def _staircase(case, behind):
         level = np.arange(lowest[i] - layers, top[i])
         rows.append(np.column_stack([np.full(len(level), place), (level + 0.5) * spacing]))
         wall = (level >= high[i] - 1) & (place < end + spacing)
+        if case.wavemaker.type == "none":
+            wall &= place > -spacing
         kinds.append(np.where(wall, WALL, DUMMY).astype(np.int8))
     return np.vstack(rows), np.concatenate(kinds)
 

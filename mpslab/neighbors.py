@@ -6,7 +6,6 @@ import numpy as np
 
 from mpslab.kernels import cells, neighbors
 
-
 MOST_CELLS = 2**24
 
 

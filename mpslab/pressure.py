@@ -42,12 +42,16 @@ def assemble(particles, neighbors, stencil, pair_terms, density, source):
 
 
 def _hold_cut_off_rows(row, column, diagonal, excess):
-    """Double the diagonal of rows that no path ties to the surface: they would be singular."""
+    """Make the diagonal of rows that no path ties to the surface larger: they would be singular.
+
+    It is doubled; where it is 0, for lack of any neighbour with a pressure, it becomes the largest.
+    """
     reached = np.empty(len(diagonal), np.uint8)
     queue = np.empty(len(diagonal), np.int32)
     if poisson.reach(row, column, excess, queue, reached) < len(diagonal):
         alone = reached == 0
-        diagonal[alone] = np.maximum(2.0 * diagonal[alone], np.finfo(float).tiny)
+        largest = diagonal.max() or 1.0
+        diagonal[alone] = np.where(diagonal[alone] > 0.0, 2.0 * diagonal[alone], largest)
 
 
 def solve(system, rows, particles, solver, tolerance, max_iterations, clip):

@@ -17,11 +17,10 @@ def mark_surface(particles, neighbors, stencil, threshold):
     few = particles.number_density < threshold * stencil.n0
     few &= particles.carries_pressure
     rows = np.flatnonzero(few).astype(np.int32)
-    lopsided = np.empty(len(rows))
+    count, lopsided = np.empty(len(rows), np.int32), np.empty(len(rows))
     density.imbalance(
-        particles.position, neighbors.indptr, neighbors.indices, stencil, rows, lopsided
+        particles.position, neighbors.indptr, neighbors.indices, stencil, rows, count, lopsided
     )
-    count = np.diff(neighbors.indptr)[rows]
     inside = (count > FEW) & (lopsided < LOPSIDED * stencil.spacing)
     few[rows[inside]] = False
     particles.surface[:] = few

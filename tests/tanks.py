@@ -3,12 +3,15 @@
 from types import SimpleNamespace
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from mpslab import geometry
 from mpslab.cases import from_tables
+from mpslab.kernels import density
 from mpslab.neighbors import NeighborList
 from mpslab.particles import make_particles
 from mpslab.piston import Piston, make_paddle
+from mpslab.stencil import make_stencil
 from mpslab.step import advance, make_flow
 
 TABLES = {
@@ -76,6 +79,21 @@ def cloud(dim, n, seed, jitter=None):
 def neighbors_of(position, radius, width=0.0, active=None):
     """Neighbour list of positions."""
     return NeighborList().build(np.ascontiguousarray(position), radius, width, active)
+
+
+def closest(position):
+    """Least distance of two points."""
+    return cKDTree(position).query(position, k=2)[0][:, 1].min()
+
+
+def number_density_over_n0(case, particles):
+    """n/n0 of all particles of a case at radius 2.1, (n,)."""
+    spacing, width = case.particles.spacing, geometry.period(case)
+    stencil = make_stencil(case.dim, spacing, 2.1, width)
+    found = neighbors_of(particles.position, stencil.radius, width)
+    n = np.empty(len(particles))
+    density.number_density(particles.position, found.indptr, found.indices, stencil, n)
+    return n / stencil.n0
 
 
 def particles_at(position, kind=0):

@@ -23,15 +23,20 @@ def number_density(const double[:, ::1] position, const int[::1] indptr, const i
 
 
 def imbalance(const double[:, ::1] position, const int[::1] indptr, const int[::1] indices,
-              stencil, const int[::1] rows, double[::1] out):
-    """|sum_j w r_ij| / sum_j w of the particles `rows`: how lopsided the neighbours are [m]."""
+              stencil, const int[::1] rows, int[::1] count, double[::1] out):
+    """|sum_j w r_ij| / sum_j w of the particles `rows`: how lopsided the neighbours are [m].
+
+    count : out, neighbours inside the radius of the stencil (the list may reach further)
+    """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double dx, dy, dz, w, mx, my, mz, total
     cdef Py_ssize_t m, i, k, j
+    cdef int near
     with nogil:
         for m in range(rows.shape[0]):
             i = rows[m]
             mx = my = mz = total = 0.0
+            near = 0
             for k in range(indptr[i], indptr[i + 1]):
                 j = indices[k]
                 dx = position[j, 0] - position[i, 0]
@@ -42,4 +47,6 @@ def imbalance(const double[:, ::1] position, const int[::1] indptr, const int[::
                 my += w * dy
                 mz += w * dz
                 total += w
+                near += w > 0.0
+            count[m] = near
             out[m] = sqrt(mx * mx + my * my + mz * mz) / (total if total > 0.0 else 1.0)

@@ -1,0 +1,89 @@
+"""Cases on the way to TOML and back: every key is written, and any valid case comes back equal."""
+
+import re
+from dataclasses import fields
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mpslab import cases, plugins
+from mpslab.cases.complete import complete
+from mpslab.cases.recipes import RECIPES
+from mpslab.keys import toml_name
+from mpslab.parameters import LISTS, TABLES, Case
+
+
+def test_every_key_is_written_with_its_unit_and_meaning():
+    text = cases.dumps(cases.load_case("dam_break"))
+    for kind in (*TABLES.values(), *LISTS.values()):
+        for item in fields(kind):
+            assert re.search(
+                rf"^{toml_name(item)} = .*{re.escape(item.metadata['doc'])}$", text, re.M
+            )
+    assert re.search(r"^spacing = 0\.01 +# \[m\] particle spacing d0$", text, re.M)
+
+
+def line():
+    return st.text(max_size=30).map(
+        lambda words: "".join(c for c in words if c.isprintable()).strip()
+    )
+
+
+def numbers_of(table, *names):
+    """Random values in range for the plain numbers of a table, those named left out."""
+    return st.fixed_dictionaries(
+        {},
+        optional={
+            item.name: in_range(item.metadata)
+            for item in fields(TABLES[table])
+            if item.metadata["kind"] in ("number", "integer") and item.name not in names
+        },
+    )
+
+
+def in_range(metadata):
+    low = metadata.get("low", metadata.get("above"))
+    high = metadata.get("high", 1e6)
+    if metadata["kind"] == "integer":
+        return st.integers(int(low), int(high))
+    above = "above" in metadata
+    return st.floats(1e-300 if above and low == 0 else low, high, exclude_min=above)
+
+
+@st.composite
+def valid_tables(draw):
+    spacing = draw(st.floats(1e-6, 10.0))
+    length, depth = (spacing * draw(st.floats(3.1, 60.0)) for _ in range(2))
+    width = draw(st.sampled_from((0.0, 20.0 * spacing)))
+    place = st.floats(0.0, length)
+    tank = {"length": length, "depth": depth, "width": width, "periodic": draw(st.booleans())}
+    stabilisers = st.permutations(plugins.names("stabilisers"))
+    scheme = draw(numbers_of("scheme"))
+    scheme["stabiliser"] = draw(stabilisers)[: draw(st.integers(0, 3))]
+    scheme["recipe"] = draw(st.sampled_from(tuple(RECIPES)))
+    return {
+        "title": draw(line()),
+        "tank": tank,
+        "particles": {"spacing": spacing, **draw(numbers_of("particles", "spacing", "layers"))},
+        "time": {"end": draw(st.floats(1e-3, 1e6))},
+        "fluid": draw(numbers_of("fluid")),
+        "scheme": scheme,
+        "wavemaker": {
+            "type": "still",
+            "file": draw(line()),
+            **draw(numbers_of("wavemaker", "stroke")),
+        },
+        "output": draw(numbers_of("output")) | {"pictures": draw(st.lists(st.floats(0.0, 1e9)))},
+        "gauge": [
+            {"name": str(i), "x": x} for i, x in enumerate(draw(st.lists(place, max_size=4)))
+        ],
+    }
+
+
+@given(valid_tables())
+@settings(max_examples=100, deadline=None)
+def test_any_case_comes_back_equal_from_its_own_toml(tables):
+    case = cases.from_tables(tables)
+    assert isinstance(case, Case)
+    assert cases.loads(cases.dumps(case)) == case
+    assert complete(case) == case

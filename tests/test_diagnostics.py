@@ -1,0 +1,54 @@
+"""Energy, volume and speed of the water."""
+
+import numpy as np
+import pytest
+from tanks import flow_of, make_case, particles_at, run
+
+from mpslab import diagnostics
+from mpslab.particles import DUMMY, FLUID, WALL
+from mpslab.stencil import make_stencil
+
+DENSITY, GRAVITY = 1000.0, 9.81
+
+
+def two_and_a_wall():
+    position = [[0.0, 0.0, 1.0], [0.0, 0.0, 3.0], [0.0, 0.0, 9.0]]
+    particles = particles_at(position, [FLUID, FLUID, WALL])
+    particles.velocity[:] = [[3.0, 0.0, 4.0], [0.0, 1.0, 0.0], [7.0, 0.0, 0.0]]
+    return particles
+
+
+@pytest.mark.parametrize(("dim", "mass"), [(2, 1000.0 * 0.1**2), (3, 1000.0 * 0.1**3)])
+def test_energies_are_sums_over_the_water(dim, mass):
+    stencil, particles = make_stencil(dim, 0.1, 2.1), two_and_a_wall()
+    kinetic = diagnostics.kinetic_energy(particles, stencil, DENSITY)
+    potential = diagnostics.potential_energy(particles, stencil, DENSITY, GRAVITY)
+    assert kinetic == pytest.approx(0.5 * mass * (25.0 + 1.0), rel=1e-14)
+    assert potential == pytest.approx(mass * GRAVITY * 4.0, rel=1e-14)
+
+
+def test_speed_is_the_length_of_the_fastest_velocity():
+    assert diagnostics.max_speed(two_and_a_wall()) == 5.0
+
+
+@pytest.mark.parametrize("width", [0.0, 0.016])
+def test_volume_of_still_water_is_that_of_the_tank(width):
+    flow = flow_of(make_case({"tank.width": width}))
+    run(flow, 1, 1e-9)
+    exact = 0.04 * 0.02 * (width or 1.0)
+    assert diagnostics.volume(flow.particles, flow.stencil) == pytest.approx(exact, rel=0.01)
+
+
+def test_volume_grows_where_particles_spread():
+    stencil = make_stencil(3, 1.0, 2.1)
+    particles = particles_at(np.zeros((3, 3)), [FLUID, FLUID, DUMMY])
+    particles.number_density[:] = [stencil.n0, 0.8 * stencil.n0, stencil.n0]
+    assert diagnostics.volume(particles, stencil) == pytest.approx(1.0 + 1.25, rel=1e-14)
+
+
+def test_surface_particles_count_in_full():
+    stencil = make_stencil(3, 1.0, 2.1)
+    particles = particles_at(np.zeros((2, 3)))
+    particles.number_density[:] = [stencil.n0, 0.1 * stencil.n0]
+    particles.surface[1] = 1
+    assert diagnostics.volume(particles, stencil) == pytest.approx(2.0, rel=1e-14)
