@@ -200,6 +200,15 @@ def test_shifting_is_zero_at_the_surface_and_beside_it():
     assert np.count_nonzero(~beside) > 20
 
 
+def test_shifting_leaves_a_lone_surface_particle_inside_the_water_where_it_is():
+    particles = particles_at(cloud(3, 300, 7, jitter=0.3))
+    middle = int(np.argmin(np.linalg.norm(particles.position, axis=1)))
+    particles.surface[middle] = 1
+    move, _ = apply("shifting", particles)
+    assert np.all(move[middle] == 0.0)
+    assert np.count_nonzero(np.all(move == 0.0, axis=1)) > 20
+
+
 def test_shifting_follows_its_formula():
     """dr = -A d0^2 sum (w/(n0 r^2)) r_ij, for a particle between six others, one of them near."""
     around = np.vstack([np.eye(3), -np.eye(3)])
