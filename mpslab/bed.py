@@ -1,5 +1,7 @@
 """The bed as a line of points, and the layers of particles along it."""
 
+from itertools import pairwise
+
 import numpy as np
 
 
@@ -43,7 +45,7 @@ def layer(points, depth, spacing):
     """
     line = _offset(points, depth)
     pieces = []
-    for start, end in zip(line[:-1], line[1:], strict=True):
+    for start, end in pairwise(line):
         n = max(round(float(np.hypot(*(end - start))) / spacing), 1)
         pieces.append(start + np.outer((np.arange(n) + 0.5) / n, end - start))
     return np.vstack(pieces)

@@ -140,11 +140,26 @@ class Scheme:
 
     recipe: str = key("set of models that fills in what is not set here", "standard")
     gradient: str = key("pressure gradient", "corrected", family="gradients")
-    source: str = key("source of the Poisson equation", "mixed", family="sources")
+    source: str = key("source of the Poisson equation", "corrected", family="sources")
     laplacian: str = key("Laplacian of pressure", "standard", family="laplacians")
     solver: str = key("solver of the Poisson equation", "iccg", family="solvers")
     stabiliser: tuple = key(
         "what keeps particles apart", ("shifting", "ds"), kind="texts", family="stabilisers"
+    )
+    projection: str = key(
+        "where the pressure acts: at the predicted positions (as in MPS), or those of the start",
+        "start",
+        choices=("predicted", "start"),
+    )
+    walls: str = key(
+        "wall pressure: an unknown of its own, or extrapolated from the water",
+        "extrapolated",
+        choices=("solved", "extrapolated"),
+    )
+    surface: str = key(
+        "free surface: p = 0 at marked particles, or a graded pull towards p = 0 above them",
+        "graded",
+        choices=("marked", "graded"),
     )
     tolerance: float = key("relative residual of the solver", 1e-6, above=0, high=0.1)
     max_iterations: int = key("most iterations of the solver", 2000, low=1)
@@ -153,11 +168,13 @@ class Scheme:
     )
     laplacian_radius: float = key("radius of the Laplacian", 2.1, unit="spacings", low=1.5, high=6)
     relaxation: float = key("relaxation factor of the source 'density'", 0.2, above=0, high=1)
-    gamma: float = key("weight of the density error in the source 'mixed'", 0.01, low=0, high=1)
-    surface_threshold: float = key(
-        "number density over n0 below which a particle is free surface", 0.97, above=0, high=1
+    gamma: float = key(
+        "weight of the density error in the sources 'mixed' and 'corrected'", 0.01, low=0, high=1
     )
-    shifting_strength: float = key("strength of 'shifting'", 0.1, low=0, high=1)
+    surface_threshold: float = key(
+        "n/n0 below which a particle is free surface, where it is marked", 0.97, above=0, high=1
+    )
+    shifting_strength: float = key("strength of 'shifting'", 0.2, low=0, high=1)
     ds_distance: float = key("distance kept by 'ds'", 0.9, unit="spacings", above=0, high=1)
     collision_distance: float = key(
         "distance kept by 'collision'", 0.5, unit="spacings", above=0, high=1
@@ -179,7 +196,7 @@ class Time:
     viscous: float = key("dt <= viscous spacing^2 / viscosity", 0.2, above=0, high=1)
     growth: float = key("dt <= growth last dt", 1.1, above=1, high=10)
     maximum: float = key(
-        "largest dt; 0 for 0.3 spacing / sqrt(gravity depth)", 0.0, unit="s", low=0
+        "largest dt; 0 for 0.2 spacing / sqrt(gravity depth)", 0.0, unit="s", low=0
     )
     start: float = key("first dt; 0 for maximum / 10", 0.0, unit="s", low=0)
     minimum: float = key(

@@ -8,6 +8,11 @@ FLUID, WALL, DUMMY, PISTON, PISTON_DUMMY = range(5)
 KIND_NAMES = ("fluid", "wall", "dummy", "piston", "piston dummy")
 
 
+def carries_pressure(kind):
+    """Mask of the kinds with a pressure of their own: (n,) int8 -> (n,) bool."""
+    return (kind == FLUID) | (kind == WALL) | (kind == PISTON)
+
+
 @dataclass
 class ParticleSet:
     """Particles as a structure of arrays, in the order of their gid.
@@ -46,7 +51,7 @@ class ParticleSet:
     @property
     def carries_pressure(self):
         """Mask of the particles with a pressure of their own, (n,) bool."""
-        return (self.kind == FLUID) | (self.kind == WALL) | (self.kind == PISTON)
+        return carries_pressure(self.kind)
 
     @property
     def moves_with_piston(self):

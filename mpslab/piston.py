@@ -39,15 +39,18 @@ class Piston:
         """x of the piston's face [m]; 0 without a wavemaker."""
         return self.paddle.displacement(time) if self.paddle else 0.0
 
-    def move(self, particles, time, dt):
-        """Take the piston to its place at time + dt; its velocity is that of the move."""
+    def push(self, particles, time, dt):
+        """Give the piston the velocity of its move from time to time + dt."""
+        if self.paddle is not None:
+            moving = particles.moves_with_piston
+            particles.velocity[moving, 0] = (self.face(time + dt) - self.face(time)) / dt
+
+    def move(self, particles, time):
+        """Take the piston to its place at a time, and cover the bed behind it."""
         if self.paddle is None:
             return
-        start, end = self.face(time), self.face(time + dt)
-        moving = particles.moves_with_piston
-        particles.position[moving, 0] = self.rest + end
-        particles.velocity[moving, 0] = (end - start) / dt
-        self.cover(particles, end)
+        particles.position[particles.moves_with_piston, 0] = self.rest + self.face(time)
+        self.cover(particles, self.face(time))
 
     def cover(self, particles, face):
         """Bed behind the face carries no pressure: else it would tie the corner to p = 0."""

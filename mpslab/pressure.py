@@ -3,10 +3,13 @@
 import numpy as np
 
 from mpslab.kernels import poisson
+from mpslab.particles import carries_pressure
 from mpslab.sparse import PressureSystem
 
 
-def assemble(particles, neighbors, stencil, pair_terms, density, source):
+def assemble(
+    particles, neighbors, stencil, pair_terms, density, source, kind=None, surface_pull=None
+):
     """System of the particles that carry a pressure and are not at the surface.
 
     Parameters
@@ -19,6 +22,10 @@ def assemble(particles, neighbors, stencil, pair_terms, density, source):
     density : float [kg/m3]
     source : (n,) float64 [1/s2]
         Right-hand side for all particles.
+    kind : (n,) int8, optional
+        Kinds that stand in for those of the particles.
+    surface_pull : (n,) float64, optional
+        Added to the diagonal; with it, surface particles have rows as all others.
 
     Returns
     -------
@@ -26,17 +33,22 @@ def assemble(particles, neighbors, stencil, pair_terms, density, source):
     rows : (m,) int
         Particle of each row.
     """
-    rows = np.flatnonzero(particles.carries_pressure & (particles.surface == 0))
+    kind = particles.kind if kind is None else kind
+    inner = particles.surface == 0 if surface_pull is None else True
+    rows = np.flatnonzero(carries_pressure(kind) & inner)
     m, most = len(rows), len(neighbors.indices)
     unknown = np.full(len(particles), -1, np.int32)
     unknown[rows] = np.arange(m, dtype=np.int32)
     row, diagonal, excess = np.empty(m + 1, np.int32), np.empty(m), np.empty(m)
     column, value = np.empty(most, np.int32), np.empty(most)
     entries = poisson.assemble(
-        particles.position, particles.kind, neighbors.indptr, neighbors.indices, unknown,
+        particles.position, kind, neighbors.indptr, neighbors.indices, unknown,
         stencil, pair_terms, 1.0 / density, row, column, value, diagonal, excess,
     )  # fmt: skip
     column, value = column[:entries], value[:entries]
+    if surface_pull is not None:
+        diagonal += surface_pull[rows]
+        excess += surface_pull[rows]
     _hold_cut_off_rows(row, column, diagonal, excess)
     return PressureSystem(row, column, value, diagonal, source[rows]), rows
 

@@ -55,7 +55,8 @@ class Record:
 
     def read_instruments(self):
         """Read all gauges and probes at the present time."""
-        p, spacing, width = self.flow.particles, self.case.particles.spacing, self.flow.stencil.width
+        p, stencil = self.flow.particles, self.flow.stencil
+        spacing, width = stencil.spacing, stencil.width
         levels = [
             gauges.surface_elevation(p.position, p.kind, spacing, g.x, g.y, width)
             for g in self.case.gauge

@@ -4,6 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+# The lattice is not how particles lie in moving water.  In 3-D, at the same mass in a volume, w
+# sums to 2 % less over the arrangement that they find for themselves; held at n0, still water
+# sinks by these 2 % (measured over 20 layers).  In 2-D the difference is below 0.3 %.
+RELAXED = {(3, 2.1): 0.98}
+
 
 @dataclass(frozen=True)
 class Stencil:
@@ -31,6 +36,11 @@ class Stencil:
     width: float
     n0: float
     lambda0: float
+
+    @property
+    def relaxed(self):
+        """Number density of water at its density, once its particles have left the lattice [-]."""
+        return self.n0 * RELAXED.get((self.dim, round(self.radius / self.spacing, 9)), 1.0)
 
     @property
     def floor(self):

@@ -5,14 +5,13 @@ from types import ModuleType
 
 import numpy as np
 
-from mpslab import plugins, pressure
+from mpslab import plugins, pressure, surface, walls
 from mpslab.kernels import density, viscosity
 from mpslab.neighbors import NeighborList
 from mpslab.particles import ParticleSet
 from mpslab.piston import Piston
 from mpslab.stencil import Stencil, make_stencil
 from mpslab.stopwatch import Stopwatch
-from mpslab.surface import mark_surface
 
 
 @dataclass
@@ -27,7 +26,7 @@ class Flow:
     stencil, laplacian_stencil : Stencil
         Of gradient and number density, and of the Laplacian.
     neighbors : NeighborList
-        At the last predicted positions.
+        Where the pressure acted last.
     time : float [s]
     """
 
@@ -44,6 +43,11 @@ class Flow:
     neighbors: NeighborList = field(default_factory=NeighborList)
     stopwatch: Stopwatch = field(default_factory=Stopwatch)
     time: float = 0.0
+
+    @property
+    def extrapolates(self):
+        """Whether the walls take their pressure from the water in front of them."""
+        return self.case.scheme.walls == "extrapolated"
 
 
 def make_flow(case, particles, piston, width):
@@ -76,43 +80,48 @@ def advance(flow, dt):
 
     Predict with gravity and viscosity, solve for the pressure that keeps the number density,
     correct with its gradient (equations 1 to 4 of the paper).  One neighbour list serves the
-    whole step: viscosity, too, is evaluated at the predicted positions.
+    whole step: viscosity, too, is evaluated where the pressure acts.
     """
     particles, watch = flow.particles, flow.stopwatch
+    start, before = particles.position.copy(), particles.velocity.copy()
     _predict(flow, dt)
     with watch.phase("neighbours"):
         _find_neighbors(flow)
     with watch.phase("operators"):
         _add_viscosity(flow, dt)
         _stabilise(flow, "predicted", particles.position, dt)
-        _update_density(flow)
+        graded = _find_surface(flow)
+    pull = walls.pull(particles, before, flow.case.fluid.gravity, dt)
     with watch.phase("assembly"):
-        system, rows = _assemble(flow, dt)
+        system, rows = _assemble(flow, graded, pull, dt)
     with watch.phase("solve"):
-        scheme = flow.case.scheme
-        report = pressure.solve(
-            system, rows, particles, flow.solver, scheme.tolerance, scheme.max_iterations,
-            scheme.clip_pressure,
-        )  # fmt: skip
+        report = _solve(flow, system, rows, pull)
     with watch.phase("operators"):
-        _correct(flow, dt)
+        _correct(flow, start, dt)
     flow.time += dt
     return report
 
 
 def _predict(flow, dt):
-    """u' = u + g dt and r* = r + u' dt for the water; the piston takes its next place."""
+    """u' = u + g dt; with projection "predicted" also r* = r + u' dt, and the piston's new place.
+
+    The projection decides the damping.  In a wave of frequency w the pressure at r* takes away
+    (w dt)^2/2 of the amplitude in each step; at the positions of the start it takes nothing.
+    """
     particles = flow.particles
-    flow.piston.move(particles, flow.time, dt)
+    flow.piston.push(particles, flow.time, dt)
     fluid = particles.fluid
     particles.velocity[fluid, 2] -= flow.case.fluid.gravity * dt
-    particles.position[fluid] += dt * particles.velocity[fluid]
+    if flow.case.scheme.projection == "predicted":
+        particles.position[fluid] += dt * particles.velocity[fluid]
+        flow.piston.move(particles, flow.time + dt)
 
 
 def _find_neighbors(flow):
     radius = max(flow.stencil.radius, flow.laplacian_stencil.radius)
-    active = flow.particles.carries_pressure
-    flow.neighbors.build(flow.particles.position, radius, flow.stencil.width, active)
+    particles = flow.particles
+    active = particles.fluid if flow.extrapolates else particles.carries_pressure
+    flow.neighbors.build(particles.position, radius, flow.stencil.width, active)
 
 
 def _add_viscosity(flow, dt):
@@ -129,40 +138,68 @@ def _add_viscosity(flow, dt):
     particles.velocity += dt * acceleration
 
 
-def _update_density(flow):
+def _find_surface(flow):
+    """Number density and surface; the grade of the surface where the scheme asks for it."""
     particles, neighbors = flow.particles, flow.neighbors
     density.number_density(
         particles.position, neighbors.indptr, neighbors.indices, flow.stencil,
         particles.number_density,
     )  # fmt: skip
-    mark_surface(particles, neighbors, flow.stencil, flow.case.scheme.surface_threshold)
+    if flow.case.scheme.surface == "graded":
+        return surface.grade_surface(particles, neighbors, flow.stencil)
+    surface.mark_surface(particles, neighbors, flow.stencil, flow.case.scheme.surface_threshold)
+    return None
 
 
-def _assemble(flow, dt):
-    particles, neighbors = flow.particles, flow.neighbors
+def _assemble(flow, graded, pull, dt):
+    particles, neighbors, rho = flow.particles, flow.neighbors, flow.case.fluid.density
+    stencil, terms = flow.laplacian_stencil, flow.pair_terms
+    velocity, n = particles.velocity, particles.number_density
+    kind = towards_zero = None
+    if flow.extrapolates:
+        velocity = walls.predicted_velocity(particles, pull, dt)
+        kind = walls.outside_system(particles)
+    if graded is not None:
+        towards_zero = surface.surface_pull(particles, graded, stencil, terms, rho)
+        n = surface.filled_density(n, graded, flow.stencil)
     right = np.empty(len(particles))
     flow.source.source(
-        particles.position, particles.velocity, particles.number_density, neighbors.indptr,
-        neighbors.indices, flow.stencil, dt, flow.case.scheme, right,
+        particles.position, velocity, n, neighbors.indptr, neighbors.indices, flow.stencil, dt,
+        flow.case.scheme, right,
     )  # fmt: skip
+    if flow.extrapolates:
+        right += walls.flux(particles, neighbors, stencil, terms, pull)
     return pressure.assemble(
-        particles, neighbors, flow.laplacian_stencil, flow.pair_terms, flow.case.fluid.density,
-        right,
+        particles, neighbors, stencil, terms, rho, right, kind, towards_zero
+    )
+
+
+def _solve(flow, system, rows, pull):
+    particles, scheme = flow.particles, flow.case.scheme
+    report = pressure.solve(
+        system, rows, particles, flow.solver, scheme.tolerance, scheme.max_iterations,
+        scheme.clip_pressure,
     )  # fmt: skip
+    if flow.extrapolates:
+        walls.fill(particles, flow.neighbors, flow.stencil, flow.case.fluid.density, pull)
+    return report
 
 
-def _correct(flow, dt):
-    """u = u* - (dt/rho) grad p and r = r* + dt (u - u*), then keep the particles in order."""
+def _correct(flow, start, dt):
+    """u = u* - (dt/rho) grad p and r = start + u dt, then keep the particles in order."""
     particles, neighbors = flow.particles, flow.neighbors
     before = particles.position.copy()
+    kind = walls.with_pressure(particles) if flow.extrapolates else particles.kind
     change = np.zeros_like(particles.velocity)
     flow.gradient.gradient(
-        particles.position, particles.pressure, particles.kind, neighbors.indptr,
-        neighbors.indices, flow.stencil, change,
+        particles.position, particles.pressure, kind, neighbors.indptr, neighbors.indices,
+        flow.stencil, change,
     )  # fmt: skip
-    change *= -dt / flow.case.fluid.density
-    particles.velocity += change
-    particles.position += dt * change
+    particles.velocity -= (dt / flow.case.fluid.density) * change
+    fluid = particles.fluid
+    particles.position[fluid] = start[fluid] + dt * particles.velocity[fluid]
+    if flow.case.scheme.projection == "start":
+        flow.piston.move(particles, flow.time + dt)
     _stabilise(flow, "corrected", before, dt)
     if flow.stencil.width > 0.0:
         particles.position[:, 1] %= flow.stencil.width

@@ -1,26 +1,81 @@
-"""Detection of free-surface particles."""
+"""The free surface: which particles it is made of, and how p = 0 holds there."""
 
 import numpy as np
 
 from mpslab.kernels import density
+from mpslab.stencil import lattice_offsets
 
 LOPSIDED = 0.2  # spacings
 FEW = 4
+# Grade 0 to 1 of "graded": over this range of lopsidedness [spacings], or of n/n0 in spray.
+GRADE_LOPSIDED = (0.15, 0.35)
+GRADE_SPRAY = (0.85, 0.70)
 
 
 def mark_surface(particles, neighbors, stencil, threshold):
-    """Set ``particles.surface``, where p = 0 holds; number density must be up to date.
+    """Option ``scheme.surface = "marked"``: set ``particles.surface``, where p = 0 holds.
 
     A particle is at the surface where n < threshold n0, unless its neighbours surround it
     evenly: more than four of them, and |sum w r_ij|/n < 0.2 d0 (Shibata et al.; NPCD 2016).
     """
     few = particles.number_density < threshold * stencil.n0
     few &= particles.carries_pressure
-    rows = np.flatnonzero(few).astype(np.int32)
-    count, lopsided = np.empty(len(rows), np.int32), np.empty(len(rows))
-    density.imbalance(
-        particles.position, neighbors.indptr, neighbors.indices, stencil, rows, count, lopsided
-    )
+    rows = np.flatnonzero(few)
+    count, lopsided = _imbalance(particles, neighbors, stencil, rows)
     inside = (count > FEW) & (lopsided < LOPSIDED * stencil.spacing)
     few[rows[inside]] = False
     particles.surface[:] = few
+
+
+def grade_surface(particles, neighbors, stencil):
+    """Option ``scheme.surface = "graded"``: how much of the surface each particle is, (n,) float64.
+
+    0 inside, 1 at the surface or in spray, in between smoothly: a particle on its way to the
+    surface does not switch from one condition to another.  Sets ``particles.surface`` as well.
+    """
+    rows = np.flatnonzero(particles.fluid)
+    _, lopsided = _imbalance(particles, neighbors, stencil, rows)
+    share = particles.number_density[rows] / stencil.n0
+    side = _between(lopsided / stencil.spacing, *GRADE_LOPSIDED)
+    t = np.maximum(side, _between(share, *GRADE_SPRAY))
+    graded = np.zeros(len(particles))
+    graded[rows] = t * t * (3.0 - 2.0 * t)
+    particles.surface[:] = graded > 0.5
+    return graded
+
+
+def surface_pull(particles, graded, stencil, pair_terms, density_):
+    """What the space above the surface adds to the diagonal of the pressure equation, (n,).
+
+    The neighbours that a surface particle lacks stand for points at p = 0: their share of the
+    Laplacian pulls its pressure towards zero (after Tsuruta et al. 2015), so that p = 0 holds
+    above the particles and not at their centres.
+    """
+    missing = np.maximum(1.0 - particles.number_density / stencil.n0, 0.0)
+    return graded * missing * _lattice_sum(stencil, pair_terms) / density_
+
+
+def filled_density(number_density, graded, stencil):
+    """Number density as if the neighbours missing at the surface were there, (n,)."""
+    return number_density + graded * np.maximum(stencil.relaxed - number_density, 0.0)
+
+
+def _between(value, zero, one):
+    return np.clip((value - zero) / (one - zero), 0.0, 1.0)
+
+
+def _lattice_sum(stencil, pair_terms):
+    """Sum of the Laplacian's pair weight over the full lattice [1/m2]."""
+    reach = int(np.ceil(stencil.radius / stencil.spacing)) + 1
+    r = np.linalg.norm(lattice_offsets(stencil.dim, reach), axis=1) * stencil.spacing
+    one, inverse, cubic = pair_terms
+    return float(np.sum((one + inverse / r + cubic / r**3)[r < stencil.radius]))
+
+
+def _imbalance(particles, neighbors, stencil, rows):
+    count, lopsided = np.empty(len(rows), np.int32), np.empty(len(rows))
+    density.imbalance(
+        particles.position, neighbors.indptr, neighbors.indices, stencil,
+        rows.astype(np.int32), count, lopsided,
+    )  # fmt: skip
+    return count, lopsided

@@ -21,6 +21,15 @@ TABLES = {
 }
 
 
+# The frame of the original method, in which the gradients are compared with one another.
+CLASSIC = {
+    "scheme.source": "mixed",
+    "scheme.projection": "predicted",
+    "scheme.walls": "solved",
+    "scheme.surface": "marked",
+}
+
+
 def make_case(changes=None):
     """Closed 2-D tank of 20 x 10 particles; `changes` replaces values by key, "tank.depth"."""
     tables = {name: dict(values) for name, values in TABLES.items()}

@@ -56,7 +56,7 @@ VALUES = [
     ("scheme.gradient", "cmsp", "scheme.gradient = 'cmsp': must be one of cmps, corrected, gc"),
     ("scheme.gradient", "cmsp", "did you mean cmps?"),
     ("scheme.gradient", 4, "scheme.gradient = 4: must be text of one line"),
-    ("scheme.source", "dens", "scheme.source = 'dens': must be one of density"),
+    ("scheme.source", "dens", "scheme.source = 'dens': must be one of corrected, density"),
     ("scheme.laplacian", "lh", "scheme.laplacian = 'lh': must be one of hl, standard"),
     ("scheme.solver", "cg", "scheme.solver = 'cg': must be one of iccg"),
     ("scheme.stabiliser", "ds", "scheme.stabiliser = 'ds': must be a list of different words"),

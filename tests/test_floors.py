@@ -11,7 +11,7 @@ FLOORS = {
     5: "simulation record watch output checkpoint vtkhdf snapshots overturning gauges pictures "
     "preflight cases initial provenance diagnostics",
     4: "step timestep",
-    3: "gradients sources laplacians solvers stabilisers wavemakers surface pressure "
+    3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
     "conjugate_gradient piston geometry",
     1: "particles neighbors stencil sparse parameters keys plugins bed paddle waves breaking "
     "stopwatch files",

@@ -37,6 +37,12 @@ def test_side_walls_are_one_layer_of_walls_and_dummies_behind():
     assert np.ptp(np.unique(np.round(outside[outside > 0.0], 6))) == pytest.approx(2.0)
 
 
+def test_side_walls_carry_pressure_only_along_the_tank():
+    _, particles = walled()
+    x = particles.position[particles.kind == WALL, 0]
+    assert (x.min(), x.max()) == (pytest.approx(-0.5 * D0), pytest.approx(0.02 + 0.5 * D0))
+
+
 def test_periodic_tank_has_no_side_walls():
     case, particles = walled(**{"tank.periodic": True})
     assert geometry.period(case) == pytest.approx(0.02)

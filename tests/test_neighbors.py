@@ -83,6 +83,15 @@ def test_narrow_periodic_tank_lists_each_neighbour_once(cells):
     assert_same_rows(found, brute_force(position, radius, width))
 
 
+@pytest.mark.parametrize("y", [-0.125, 4.125])
+def test_particle_a_little_outside_the_period_has_all_its_neighbours(y):
+    """Predicted positions are not folded back; the cells are exactly as wide as the radius."""
+    line = np.arange(0.0, 4.0, 0.0625)
+    position = np.column_stack([0.0 * line, line, 0.0 * line])
+    position = np.vstack([position, [[0.0, y, 0.0625], [3.0, y, 3.0]]])
+    assert_same_rows(neighbors_of(position, 1.0, 4.0), brute_force(position, 1.0, 4.0))
+
+
 @EXAMPLES
 @given(clouds(3, periodic=True), st.randoms(use_true_random=False))
 def test_inactive_rows_are_empty_and_the_others_unchanged(drawn, random):

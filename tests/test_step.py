@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from tanks import flow_of, inside, make_case, run
+from tanks import CLASSIC, flow_of, inside, make_case, run
 
 from mpslab.particles import PISTON
 from mpslab.step import advance
@@ -79,7 +79,7 @@ def test_report_of_a_solve_that_failed_is_handed_back():
 
 def test_stabilisers_act_in_their_stage_with_the_positions_of_the_prediction():
     """`predicted` before the pressure is solved; `corrected` with the positions before it acted."""
-    flow, calls = flow_of(make_case()), []
+    flow, calls = flow_of(make_case(CLASSIC)), []
 
     def model(stage):
         def stabilise(particles, before, neighbors, stencil, dt, scheme):

@@ -54,6 +54,13 @@ def _check_models(case):
                 words = value if isinstance(value, tuple) else (value,)
                 for word in words:
                     require_choice(f"{name}.{toml_name(item)}", word, _models(item.metadata))
+    scheme = case.scheme
+    _require(
+        scheme.surface == "marked" or scheme.walls == "extrapolated",
+        "scheme.surface",
+        scheme.surface,
+        "marked where scheme.walls = 'solved', for dry walls need p = 0 at marked particles",
+    )
 
 
 def _models(metadata):
@@ -267,7 +274,7 @@ def _long_step(case):
     if case.time.maximum <= limit * (1.0 + ROUNDING):
         return ""
     return (
-        f"time.maximum = {case.time.maximum:g} s: above 0.3 spacing / sqrt(gravity depth) ="
+        f"time.maximum = {case.time.maximum:g} s: above 0.2 spacing / sqrt(gravity depth) ="
         f" {limit:.3g} s, the run may be unstable; 0 takes that value"
     )
 

@@ -31,8 +31,8 @@ def least_layers(case: Case) -> int:
 
 
 def largest_dt(case: Case) -> float:
-    """Largest time step where none is given, 0.3 d0 / sqrt(g h) [s]."""
-    return 0.3 * case.particles.spacing / (sqrt(case.fluid.gravity) * sqrt(case.tank.depth))
+    """Largest time step where none is given, 0.2 d0 / sqrt(g h) [s]."""
+    return 0.2 * case.particles.spacing / (sqrt(case.fluid.gravity) * sqrt(case.tank.depth))
 
 
 def _tank(tank):

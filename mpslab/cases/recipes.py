@@ -8,7 +8,10 @@ RECIPES = {
     # 2024, in MPS form), and particles that are kept in order, which its accuracy rests on.
     "standard": {
         "gradient": "corrected",
-        "source": "mixed",
+        "source": "corrected",
+        "projection": "start",
+        "walls": "extrapolated",
+        "surface": "graded",
         "laplacian": "standard",
         "solver": "iccg",
         "stabiliser": ["shifting", "ds"],
@@ -19,6 +22,9 @@ RECIPES = {
     "paper": {
         "gradient": "cmps",
         "source": "density",
+        "projection": "predicted",
+        "walls": "solved",
+        "surface": "marked",
         "laplacian": "standard",
         "solver": "iccg",
         "stabiliser": ["collision"],

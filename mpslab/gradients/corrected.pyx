@@ -6,7 +6,9 @@ from mpslab.kernels.pair cimport FLUID, distance, has_pressure, weight, wrap
 
 CONSERVES_MOMENTUM = True
 EXACT_FOR_LINEAR = False
-LEAST_DETERMINANT = {2: 0.25, 3: 0.125}
+# Near the free surface the moment is one-sided and its inverse large: one layer would push the
+# next away.  There C = I, and the pair is that of p_i + p_j.
+LEAST_DETERMINANT = 0.6
 
 
 def gradient(const double[:, ::1] position, const double[::1] pressure,
@@ -14,16 +16,17 @@ def gradient(const double[:, ::1] position, const double[::1] pressure,
              stencil, double[:, ::1] out):
     """<grad p>_i = (Ds/n0) sum_j (p_i C_j + p_j C_i) r_ij w / r^2 (Zhang, Adams & Hu 2024).
 
-    C is the inverse moment matrix over all neighbours.  The pair force is equal and opposite,
-    but not central: linear momentum is conserved, angular momentum nearly.
+    C is the inverse moment matrix over all neighbours; walls take that of the water particle.
+    The pair force is equal and opposite, but not central: linear momentum is conserved, angular
+    momentum nearly.
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = stencil.dim / stencil.n0
     cdef double[:, ::1] c = np.empty((pressure.shape[0], 6))
     cdef double dx, dy, dz, r, w, pi, pj, gx, gy, gz
-    cdef Py_ssize_t i, k, j
+    cdef Py_ssize_t i, k, j, m
     correction_matrix(position, kind, indptr, indices, stencil, True,
-                      LEAST_DETERMINANT[stencil.dim], c)
+                      LEAST_DETERMINANT, c)
     with nogil:
         for i in range(indptr.shape[0] - 1):
             gx = gy = gz = 0.0
@@ -37,12 +40,13 @@ def gradient(const double[:, ::1] position, const double[::1] pressure,
                 w = weight(r, radius) / (r * r)
                 w = w if has_pressure(kind[j]) else 0.0
                 pj = pressure[j]
-                gx += w * ((pi * c[j, 0] + pj * c[i, 0]) * dx + (pi * c[j, 3] + pj * c[i, 3]) * dy
-                           + (pi * c[j, 4] + pj * c[i, 4]) * dz)
-                gy += w * ((pi * c[j, 3] + pj * c[i, 3]) * dx + (pi * c[j, 1] + pj * c[i, 1]) * dy
-                           + (pi * c[j, 5] + pj * c[i, 5]) * dz)
-                gz += w * ((pi * c[j, 4] + pj * c[i, 4]) * dx + (pi * c[j, 5] + pj * c[i, 5]) * dy
-                           + (pi * c[j, 2] + pj * c[i, 2]) * dz)
+                m = j if kind[j] == FLUID else i
+                gx += w * ((pi * c[m, 0] + pj * c[i, 0]) * dx + (pi * c[m, 3] + pj * c[i, 3]) * dy
+                           + (pi * c[m, 4] + pj * c[i, 4]) * dz)
+                gy += w * ((pi * c[m, 3] + pj * c[i, 3]) * dx + (pi * c[m, 1] + pj * c[i, 1]) * dy
+                           + (pi * c[m, 5] + pj * c[i, 5]) * dz)
+                gz += w * ((pi * c[m, 4] + pj * c[i, 4]) * dx + (pi * c[m, 5] + pj * c[i, 5]) * dy
+                           + (pi * c[m, 2] + pj * c[i, 2]) * dz)
             out[i, 0] = factor * gx
             out[i, 1] = factor * gy
             out[i, 2] = factor * gz

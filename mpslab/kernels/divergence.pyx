@@ -44,3 +44,33 @@ def density_rate(const double[:, ::1] position, const double[:, ::1] velocity,
                           + (velocity[j, 2] - velocity[i, 2]) * dz
                           ) * (1.0 if r < radius else 0.0) / (r * r * r)
             out[i] = -radius * total
+
+
+def corrected_divergence(const double[:, ::1] position, const double[:, ::1] velocity,
+                         const int[::1] indptr, const int[::1] indices, stencil,
+                         const double[:, ::1] c, double[::1] out):
+    """<div u>_i = (Ds/n0) sum_j u_ij . C_i r_ij w / r^2, exact for linear velocities [1/s].
+
+    c : (n, 6) correction matrices over the same neighbours; see mpslab.kernels.moments
+    """
+    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
+    cdef double factor = stencil.dim / stencil.n0
+    cdef double dx, dy, dz, r, ux, uy, uz, total
+    cdef Py_ssize_t i, k, j
+    with nogil:
+        for i in range(indptr.shape[0] - 1):
+            total = 0.0
+            for k in range(indptr[i], indptr[i + 1]):
+                j = indices[k]
+                dx = position[j, 0] - position[i, 0]
+                dy = wrap(position[j, 1] - position[i, 1], width)
+                dz = position[j, 2] - position[i, 2]
+                ux = velocity[j, 0] - velocity[i, 0]
+                uy = velocity[j, 1] - velocity[i, 1]
+                uz = velocity[j, 2] - velocity[i, 2]
+                r = distance(dx, dy, dz, floor)
+                total += (ux * (c[i, 0] * dx + c[i, 3] * dy + c[i, 4] * dz)
+                          + uy * (c[i, 3] * dx + c[i, 1] * dy + c[i, 5] * dz)
+                          + uz * (c[i, 4] * dx + c[i, 5] * dy + c[i, 2] * dz)
+                          ) * weight(r, radius) / (r * r)
+            out[i] = factor * total

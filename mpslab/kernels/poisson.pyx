@@ -2,12 +2,6 @@
 from mpslab.kernels.pair cimport distance, has_pressure, wrap
 
 
-cdef inline double coefficient(double r, double radius, double one, double inverse,
-                               double cubic) noexcept nogil:
-    """Pair coefficient one + inverse/r + cubic/r^3 of the Laplacian, 0 outside the radius."""
-    return one + inverse / r + cubic / (r * r * r) if r < radius else 0.0
-
-
 def assemble(const double[:, ::1] position, const signed char[::1] kind, const int[::1] indptr,
              const int[::1] indices, const int[::1] unknown, stencil, pair_terms, double scale,
              int[::1] row, int[::1] column, double[::1] value, double[::1] diagonal,

@@ -1,0 +1,58 @@
+"""Walls whose pressure is extrapolated from the water, option ``scheme.walls = "extrapolated"``.
+
+Between a water particle i and a solid one j the pressure differs by rho (g - a_j) . r_ij, with a_j
+the acceleration of the wall: the Neumann condition, pair by pair (Adami, Hu & Adams 2012).  It
+holds still water exactly.  Wall particles as unknowns (``"solved"``) do not: their own rows see
+water on one side only, and give the bed half the pressure difference of a layer.
+"""
+
+import numpy as np
+
+from mpslab.kernels import walls as kernels
+from mpslab.particles import DUMMY, FLUID, WALL
+
+
+def pull(particles, before, gravity, dt):
+    """g - a of every particle, a being the acceleration of the walls, (n, 3) [m/s2].
+
+    Parameters
+    ----------
+    before : (n, 3) float64 [m/s]
+        Velocities at the start of the step; those of the particles are the new ones for walls.
+    """
+    out = np.zeros_like(before)
+    moving = particles.moves_with_piston
+    out[moving] = (before[moving] - particles.velocity[moving]) / dt
+    out[:, 2] -= gravity
+    return out
+
+
+def predicted_velocity(particles, pull_, dt):
+    """u* of all particles: solids, too, before the pressure acts, u* = u_wall + (g - a) dt."""
+    solid = (particles.kind != FLUID)[:, None]
+    return particles.velocity + np.where(solid, dt * pull_, 0.0)
+
+
+def outside_system(particles):
+    """Kinds under which solids take no part in the matrix, (n,) int8."""
+    return np.where(particles.fluid, FLUID, DUMMY).astype(np.int8)
+
+
+def with_pressure(particles):
+    """Kinds under which all solids act with their pressure, (n,) int8."""
+    return np.where(particles.fluid, FLUID, WALL).astype(np.int8)
+
+
+def flux(particles, neighbors, stencil, pair_terms, pull_):
+    """What the walls' known differences of pressure add to the right-hand side, (n,) [1/s2]."""
+    out = np.empty(len(particles))
+    kernels.flux(particles.position, particles.kind, neighbors.indptr, neighbors.indices,
+                 stencil, pair_terms, pull_, out)  # fmt: skip
+    return out
+
+
+def fill(particles, neighbors, stencil, density, pull_):
+    """Give the solids the pressure of the water in front of them, in place; not below zero."""
+    kernels.extrapolate(particles.position, particles.kind, neighbors.indptr, neighbors.indices,
+                        stencil, density, pull_, particles.pressure,
+                        np.empty(len(particles)))  # fmt: skip

@@ -1,0 +1,106 @@
+"""Walls that continue the pressure of the water, and the graded free surface."""
+
+import numpy as np
+import pytest
+from tanks import flow_of, inside, lattice, make_case, neighbors_of, run
+
+from mpslab import plugins, surface, walls
+from mpslab.kernels import density
+from mpslab.particles import FLUID, PISTON, WALL, make_particles
+from mpslab.stencil import make_stencil
+
+RHO, G, DT = 1000.0, 9.81, 1e-3
+
+
+def tank(dim=3, jitter=0.1, half=4):
+    """Water above z = -0.5 and walls below it, spacing 1, hydrostatic pressure everywhere."""
+    position = lattice(dim, half)
+    kind = np.where(position[:, 2] < -0.5, WALL, FLUID)
+    move = np.random.default_rng(2).uniform(-jitter, jitter, position.shape)
+    position += move * [1.0, dim - 2.0, 1.0] * (kind == FLUID)[:, None]
+    particles = make_particles(position, kind)
+    particles.pressure[:] = RHO * G * (10.0 - position[:, 2])
+    return particles, neighbors_of(position, 2.1, active=kind == FLUID)
+
+
+def pull_of(particles):
+    return walls.pull(particles, np.zeros_like(particles.velocity), G, DT)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_extrapolated_pressure_of_still_water_is_exact_in_any_arrangement(dim):
+    particles, found = tank(dim)
+    exact = particles.pressure.copy()
+    walls.fill(particles, found, make_stencil(dim, 1.0, 2.1), RHO, pull_of(particles))
+    reached = (particles.kind == WALL) & (particles.pressure > 0.0)
+    assert np.count_nonzero(reached) > 9
+    np.testing.assert_allclose(particles.pressure[reached], exact[reached], rtol=1e-12)
+    far = particles.position[:, 2] < -3.5
+    assert np.all(particles.pressure[far] == 0.0)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_laplacian_of_hydrostatic_pressure_vanishes_beside_a_wall(dim):
+    particles, found = tank(dim, jitter=0.0)
+    stencil = make_stencil(dim, 1.0, 2.1)
+    terms = plugins.load("laplacians", "standard").pair_terms(stencil)
+    share = walls.flux(particles, found, stencil, terms, pull_of(particles))
+    for i in np.flatnonzero(inside(particles.position, 1.0) & particles.fluid):
+        j = found.indices[found.indptr[i] : found.indptr[i + 1]]
+        j = j[particles.kind[j] == FLUID]
+        r = np.linalg.norm(particles.position[j] - particles.position[i], axis=1)
+        laplacian = np.sum((terms[0] + terms[1] / r) * (particles.pressure[j] -
+                           particles.pressure[i]))  # fmt: skip
+        assert laplacian / RHO + share[i] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_pull_of_an_accelerating_piston_is_gravity_less_its_acceleration():
+    particles = make_particles(np.zeros((2, 3)), [FLUID, PISTON])
+    particles.velocity[1, 0] = 0.3
+    pull = walls.pull(particles, np.array([[0.0, 0, 0], [0.1, 0, 0]]), G, 0.1)
+    np.testing.assert_allclose(pull, [[0.0, 0.0, -G], [-2.0, 0.0, -G]])
+
+
+def graded_block(dim):
+    position = lattice(dim, 4)
+    particles = make_particles(position, np.full(len(position), FLUID))
+    found, stencil = neighbors_of(position, 2.1), make_stencil(dim, 1.0, 2.1)
+    density.number_density(
+        position, found.indptr, found.indices, stencil, particles.number_density
+    )
+    return particles, stencil, surface.grade_surface(particles, found, stencil)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_grade_is_one_at_the_faces_of_a_block_and_zero_inside(dim):
+    particles, _, graded = graded_block(dim)
+    outermost = ~inside(particles.position, 3.5)
+    assert np.all(graded[outermost] == 1.0)
+    assert np.all(graded[~outermost] == 0.0)
+    assert np.all(particles.surface == outermost)
+
+
+def test_lone_particle_is_all_surface_and_its_row_is_not_singular():
+    flow = flow_of(make_case(), keep=lambda p: (p.gid == p.gid[p.fluid][0]) & p.fluid)
+    run(flow, 3, 1e-4)
+    assert flow.particles.pressure[0] == 0.0
+    assert flow.particles.velocity[0, 2] == pytest.approx(-3e-4 * G, rel=1e-12)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_missing_neighbours_count_as_present_in_the_density_of_the_surface(dim):
+    particles, stencil, graded = graded_block(dim)
+    n = surface.filled_density(particles.number_density, graded, stencil)
+    np.testing.assert_allclose(n[graded == 1.0], stencil.relaxed)
+    inner = graded == 0.0
+    np.testing.assert_array_equal(n[inner], particles.number_density[inner])
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_surface_pull_is_the_missing_share_of_the_laplacian(dim):
+    particles, stencil, graded = graded_block(dim)
+    terms = plugins.load("laplacians", "standard").pair_terms(stencil)
+    pull = surface.surface_pull(particles, graded, stencil, terms, RHO)
+    full = 2.0 * dim / stencil.lambda0 / RHO
+    missing = 1.0 - particles.number_density / stencil.n0
+    np.testing.assert_allclose(pull, graded * missing * full, rtol=1e-9, atol=1e-18)
