@@ -103,7 +103,7 @@ def test_plunging_breaker_is_the_tank_of_the_paper():
     assert case.tank.bed == ((0.0, 0.0), (0.2, 0.0), (0.8, 0.06))
     assert (case.tank.length, case.tank.depth, case.tank.width) == (0.8, 0.04, 0.032)
     assert case.tank.periodic
-    assert (case.wavemaker.height, case.wavemaker.period) == (0.0196, 0.777)
+    assert (case.wavemaker.height, case.wavemaker.period) == (0.03, 0.777)
     assert (case.particles.spacing, case.time.end) == (0.004, 1.25)
     assert [gauge.x for gauge in case.gauge] == [0.1, 0.2, 0.4, 0.5]
 

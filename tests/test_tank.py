@@ -43,7 +43,7 @@ def test_check_tells_what_will_happen_and_writes_nothing(capsys, tmp_path, monke
     monkeypatch.chdir(tmp_path)
     assert tank.main(["plunging_breaker", "--check"]) == 0
     text = capsys.readouterr().out
-    for word in ("particles", "memory", "time step", "run time", "kh", "0.54", "Ursell", "66.2",
+    for word in ("particles", "memory", "time step", "run time", "kh", "0.54", "Ursell", "101",
                  "surf similarity", "plunging", "out of range", "spacings"):  # fmt: skip
         assert word in text, word
     assert list(tmp_path.iterdir()) == []
