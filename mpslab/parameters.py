@@ -161,7 +161,7 @@ class Scheme:
         "graded",
         choices=("marked", "graded"),
     )
-    tolerance: float = key("relative residual of the solver", 1e-6, above=0, high=0.1)
+    tolerance: float = key("relative residual of the solver", 1e-5, above=0, high=0.1)
     max_iterations: int = key("most iterations of the solver", 2000, low=1)
     effective_radius: float = key(
         "radius of gradient and number density", 2.1, unit="spacings", low=1.5, high=6

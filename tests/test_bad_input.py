@@ -349,3 +349,12 @@ def test_any_setting_is_taken_or_refused_in_one_line(text):
         cases.load_case("hydrostatic", {key: value})
     except CaseError as error:
         assert len(str(error).splitlines()) == 1
+
+
+def test_boxes_of_water_that_overlap_are_refused():
+    box = {"from": [0.0, 0.0, 0.0], "to": [0.6, 0.15, 0.3]}
+    other = {"from": [0.5, 0.0, 0.0], "to": [0.8, 0.15, 0.1]}
+    with pytest.raises(CaseError, match=r"^water\.1\.from = .*outside of the box water\.0"):
+        cases.load_case("dam_break", {"water": [box, other]})
+    beside = {**other, "from": [0.6, 0.0, 0.0]}
+    assert len(cases.load_case("dam_break", {"water": [box, beside]}).water) == 2

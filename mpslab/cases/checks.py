@@ -1,7 +1,7 @@
 """Checks of a case that look at several keys at once."""
 
 from dataclasses import fields
-from itertools import pairwise
+from itertools import combinations, pairwise
 from math import ceil
 from pathlib import Path
 
@@ -168,6 +168,14 @@ def _check_boxes(case):
             box.end,
             f"above the bed by a spacing, z >= {bed + spacing:g} m, or there is no fluid",
         )
+
+
+    for i, j in combinations(range(len(case.water)), 2):
+        a, b = case.water[i], case.water[j]
+        apart = any(
+            a.end[k] <= b.start[k] + slack or b.end[k] <= a.start[k] + slack for k in axes
+        )
+        _require(apart, f"water.{j}.from", b.start, f"outside of the box water.{i}, or both overlap")
 
 
 def _lowest_bed(tank, start, end):
