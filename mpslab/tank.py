@@ -116,6 +116,11 @@ def _run(simulation, until):
         print(f"mpslab: run stopped: {failure}\nThe state to look at is in {folder / 'failed.h5'}; "
               f"the last good one in {folder / 'checkpoint.h5'}", file=sys.stderr)  # fmt: skip
         return FAILED
+    except OSError as error:
+        print(f"mpslab: run stopped: results cannot be written to {folder} ({error.strerror}) after "
+              f"step {simulation.step}, t = {simulation.time:.6g} s; the last checkpoint there is "
+              "good", file=sys.stderr)  # fmt: skip
+        return FAILED
     finally:
         for number, handler in earlier.items():
             signal.signal(number, handler)

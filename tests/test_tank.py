@@ -9,7 +9,7 @@ import time
 
 import pytest
 
-from mpslab import cases, tank
+from mpslab import cases, checkpoint, tank
 
 QUICK = ["hydrostatic", "--set", "particles.spacing=0.004"]
 
@@ -117,6 +117,17 @@ def test_run_that_goes_wrong_ends_with_status_3_and_a_reason(capsys, tmp_path):
     assert tank.main(arguments) == 3
     error = capsys.readouterr().err
     assert "did not converge" in error and "step 1" in error and "failed.h5" in error
+
+
+def test_results_that_cannot_be_written_end_the_run_with_status_3(capsys, tmp_path, monkeypatch):
+    def full(*arguments):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(checkpoint, "write", full)
+    out = tmp_path / "run"
+    assert tank.main([*QUICK, "--until", "0.02", "--out", str(out)]) == 3
+    error = capsys.readouterr().err
+    assert "No space left on device" in error and str(out) in error and "step" in error
 
 
 def wait_for(path, process, seconds=60.0):
