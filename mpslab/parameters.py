@@ -196,7 +196,10 @@ class Time:
     viscous: float = key("dt <= viscous spacing^2 / viscosity", 0.2, above=0, high=1)
     growth: float = key("dt <= growth last dt", 1.1, above=1, high=10)
     maximum: float = key(
-        "largest dt; 0 for 0.2 spacing / sqrt(gravity depth)", 0.0, unit="s", low=0
+        "largest dt; 0 for 0.2 spacing / sqrt(gravity depth), half with projection 'predicted'",
+        0.0,
+        unit="s",
+        low=0,
     )
     start: float = key("first dt; 0 for maximum / 10", 0.0, unit="s", low=0)
     minimum: float = key(

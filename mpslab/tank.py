@@ -117,9 +117,9 @@ def _run(simulation, until):
               f"the last good one in {folder / 'checkpoint.h5'}", file=sys.stderr)  # fmt: skip
         return FAILED
     except OSError as error:
-        print(f"mpslab: run stopped: results cannot be written to {folder} ({error.strerror}) after "
-              f"step {simulation.step}, t = {simulation.time:.6g} s; the last checkpoint there is "
-              "good", file=sys.stderr)  # fmt: skip
+        print(f"mpslab: run stopped: {folder} cannot be written ({error.strerror}) after step "
+              f"{simulation.step}, t = {simulation.time:.6g} s; the last checkpoint there is good",
+              file=sys.stderr)  # fmt: skip
         return FAILED
     finally:
         for number, handler in earlier.items():

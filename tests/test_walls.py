@@ -97,10 +97,10 @@ def test_missing_neighbours_count_as_present_in_the_density_of_the_surface(dim):
 
 
 @pytest.mark.parametrize("dim", [2, 3])
-def test_surface_pull_is_the_missing_share_of_the_laplacian(dim):
+def test_surface_pull_is_twice_the_missing_share_of_the_laplacian(dim):
     particles, stencil, graded = graded_block(dim)
     terms = plugins.load("laplacians", "standard").pair_terms(stencil)
     pull = surface.surface_pull(particles, graded, stencil, terms, RHO)
     full = 2.0 * dim / stencil.lambda0 / RHO
     missing = 1.0 - particles.number_density / stencil.n0
-    np.testing.assert_allclose(pull, graded * missing * full, rtol=1e-9, atol=1e-18)
+    np.testing.assert_allclose(pull, 2.0 * graded * missing * full, rtol=1e-9, atol=1e-18)

@@ -65,7 +65,7 @@ def test_unconverged_pressure_stops_the_run_and_names_the_fastest_particle(flow)
     message = failure(flow, SolverReport(2000, 3.4e-2, False))
     assert "did not converge" in message
     assert "residual 0.034 after 2000 iterations" in message
-    assert "scheme.tolerance = 1e-06" in message
+    assert "scheme.tolerance = 1e-05" in message
     assert_names_step_time_and_place(message, flow, row)
 
 

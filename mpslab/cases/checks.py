@@ -175,7 +175,8 @@ def _check_boxes(case):
         apart = any(
             a.end[k] <= b.start[k] + slack or b.end[k] <= a.start[k] + slack for k in axes
         )
-        _require(apart, f"water.{j}.from", b.start, f"outside of the box water.{i}, or both overlap")
+        rule = f"outside of the box water.{i}, or both overlap"
+        _require(apart, f"water.{j}.from", b.start, rule)
 
 
 def _lowest_bed(tank, start, end):
@@ -282,7 +283,7 @@ def _long_step(case):
     if case.time.maximum <= limit * (1.0 + ROUNDING):
         return ""
     return (
-        f"time.maximum = {case.time.maximum:g} s: above 0.2 spacing / sqrt(gravity depth) ="
+        f"time.maximum = {case.time.maximum:g} s: above the default for this scheme,"
         f" {limit:.3g} s, the run may be unstable; 0 takes that value"
     )
 
