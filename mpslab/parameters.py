@@ -215,7 +215,9 @@ class Parallel:
     """How the tank is shared out among processes."""
 
     balance: str = key(
-        "where to cut the tank among processes; no effect on one", "optimal", choices=("static", "centroid", "optimal")
+        "where to cut the tank among processes; no effect on one",
+        "optimal",
+        choices=("static", "centroid", "optimal"),
     )
     rebalance_every: int = key("time steps from cut to cut; no effect on one process", 20, low=1)
 
