@@ -6,8 +6,7 @@ Each table checks its own values when it is made. What depends on several tables
 
 from dataclasses import dataclass, field, fields
 
-import numpy as np
-
+from mpslab.bed import elevation
 from mpslab.keys import CaseError, check_table, check_value, key, shown
 
 # A name becomes the heading of a column, or part of a file name.
@@ -41,8 +40,7 @@ class Tank:
 
     def bed_height(self, x):
         """Height of the bed at x [m], by straight lines between the points of the bed."""
-        along, up = zip(*self.bed, strict=True)
-        return np.interp(x, along, up)
+        return elevation(self.bed, x)
 
 
 @dataclass(frozen=True, kw_only=True)

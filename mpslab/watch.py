@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mpslab import bed as beds
 from mpslab.geometry import effective_length, rows_across
 
 MOST_LOST = 1e-3  # of the fluid particles at the start
@@ -37,7 +36,7 @@ def find_lost(case, particles, face):
     sides = [
         ("behind the wavemaker", position[:, 0] < face - spacing),
         ("behind the end wall", position[:, 0] > effective_length(case) + spacing),
-        ("below the bed", position[:, 2] < _bed(case, position[:, 0]) - spacing),
+        ("below the bed", position[:, 2] < case.tank.bed_height(position[:, 0]) - spacing),
     ]
     if case.tank.width > 0.0 and not case.tank.periodic:
         width = rows_across(case) * spacing
@@ -50,10 +49,6 @@ def find_lost(case, particles, face):
             found.append(Lost(rows, reason))
             seen = seen | outside
     return found
-
-
-def _bed(case, x):
-    return beds.elevation(case.tank.bed, x)
 
 
 def check_finite(flow, step):
