@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from mpslab.kernels.sparse import axpy, dot, xpay
+from mpslab.kernels.sparse import axpy, xpay
 from mpslab.sparse import SolverReport
 
 
@@ -24,6 +24,7 @@ def conjugate_gradient(system, x, precondition, tolerance, max_iterations, repla
     replaced : int
         Handed through to the report.
     """
+    dot = system.dot
     b_norm = math.sqrt(dot(system.right, system.right))
     if b_norm == 0.0:
         x[:] = 0.0

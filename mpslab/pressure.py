@@ -8,7 +8,8 @@ from mpslab.sparse import PressureSystem
 
 
 def assemble(
-    particles, neighbors, stencil, pair_terms, density, source, kind=None, surface_pull=None
+    particles, neighbors, stencil, pair_terms, density, source, kind=None, surface_pull=None,
+    slab=None, slabs=1,
 ):
     """System of the particles that carry a pressure and are not at the surface.
 
@@ -26,6 +27,10 @@ def assemble(
         Kinds that stand in for those of the particles.
     surface_pull : (n,) float64, optional
         Added to the diagonal; with it, surface particles have rows as all others.
+    slab : (n,) int32, optional
+        Slab of each particle: rows are numbered by slab, and in a slab by gid.  Without it, by gid.
+    slabs : int
+        Number of slabs.
 
     Returns
     -------
@@ -35,14 +40,17 @@ def assemble(
     """
     kind = particles.kind if kind is None else kind
     inner = particles.surface == 0 if surface_pull is None else True
-    rows = np.flatnonzero(carries_pressure(kind) & inner)
+    rows = np.flatnonzero(carries_pressure(kind) & inner).astype(np.int32)
+    first = None
+    if slab is not None:
+        rows, first = _by_slab(rows, slab[rows], slabs)
     m, most = len(rows), len(neighbors.indices)
     unknown = np.full(len(particles), -1, np.int32)
     unknown[rows] = np.arange(m, dtype=np.int32)
     row, diagonal, excess = np.empty(m + 1, np.int32), np.empty(m), np.empty(m)
     column, value = np.empty(most, np.int32), np.empty(most)
     entries = poisson.assemble(
-        particles.position, kind, neighbors.indptr, neighbors.indices, unknown,
+        particles.position, kind, neighbors.indptr, neighbors.indices, rows, unknown,
         stencil, pair_terms, 1.0 / density, row, column, value, diagonal, excess,
     )  # fmt: skip
     column, value = column[:entries], value[:entries]
@@ -50,7 +58,14 @@ def assemble(
         diagonal += surface_pull[rows]
         excess += surface_pull[rows]
     _hold_cut_off_rows(row, column, diagonal, excess)
-    return PressureSystem(row, column, value, diagonal, source[rows]), rows
+    return PressureSystem(row, column, value, diagonal, source[rows], first), rows
+
+
+def _by_slab(rows, slab, slabs):
+    """Rows sorted by slab, those of a slab in their old order; and the first of each slab."""
+    size = np.bincount(slab, minlength=slabs)
+    first = np.concatenate([[0], np.cumsum(size)]).astype(np.int32)
+    return rows[np.argsort(slab, kind="stable")], first
 
 
 def _hold_cut_off_rows(row, column, diagonal, excess):

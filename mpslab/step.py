@@ -5,11 +5,12 @@ from types import ModuleType
 
 import numpy as np
 
-from mpslab import plugins, pressure, surface, walls
+from mpslab import geometry, plugins, pressure, surface, walls
 from mpslab.kernels import density, viscosity
 from mpslab.neighbors import NeighborList
 from mpslab.particles import ParticleSet
 from mpslab.piston import Piston
+from mpslab.slabs import Slabs, make_slabs
 from mpslab.stencil import Stencil, make_stencil
 from mpslab.stopwatch import Stopwatch
 
@@ -25,6 +26,7 @@ class Flow:
     piston : Piston
     stencil, laplacian_stencil : Stencil
         Of gradient and number density, and of the Laplacian.
+    slabs : Slabs
     neighbors : NeighborList
         Where the pressure acted last.
     time : float [s]
@@ -35,6 +37,7 @@ class Flow:
     piston: Piston
     stencil: Stencil
     laplacian_stencil: Stencil
+    slabs: Slabs
     gradient: ModuleType
     source: ModuleType
     solver: ModuleType
@@ -60,13 +63,16 @@ def make_flow(case, particles, piston, width):
     """
     scheme, spacing = case.scheme, case.particles.spacing
     dim = 2 if case.tank.width == 0.0 else 3
+    stencil = make_stencil(dim, spacing, scheme.effective_radius, width)
     laplacian_stencil = make_stencil(dim, spacing, scheme.laplacian_radius, width)
+    extent = geometry.extent(case, piston.paddle.backmost if piston.paddle else 0.0)
     return Flow(
         case=case,
         particles=particles,
         piston=piston,
-        stencil=make_stencil(dim, spacing, scheme.effective_radius, width),
+        stencil=stencil,
         laplacian_stencil=laplacian_stencil,
+        slabs=make_slabs(*extent, max(stencil.radius, laplacian_stencil.radius)),
         gradient=plugins.load("gradients", scheme.gradient),
         source=plugins.load("sources", scheme.source),
         solver=plugins.load("solvers", scheme.solver),
@@ -169,9 +175,11 @@ def _assemble(flow, graded, pull, dt):
     )  # fmt: skip
     if flow.extrapolates:
         right += walls.flux(particles, neighbors, stencil, terms, pull)
+    slab = flow.slabs.of(particles.position[:, 0]) if flow.solver.BY_SLAB else None
     return pressure.assemble(
-        particles, neighbors, stencil, terms, rho, right, kind, towards_zero
-    )
+        particles, neighbors, stencil, terms, rho, right, kind, towards_zero, slab,
+        flow.slabs.count,
+    )  # fmt: skip
 
 
 def _solve(flow, system, rows, pull):

@@ -14,7 +14,7 @@ FLOORS = {
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
     "conjugate_gradient piston geometry",
     2: "balance",
-    1: "particles neighbors stencil sparse parameters keys plugins bed paddle waves breaking "
+    1: "particles neighbors stencil sparse slabs parameters keys plugins bed paddle waves breaking "
     "stopwatch files",
     0: "kernels",
 }

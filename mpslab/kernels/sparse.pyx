@@ -24,6 +24,20 @@ def dot(const double[::1] x, const double[::1] y):
     return total
 
 
+def slab_dots(const double[::1] x, const double[::1] y, const int[::1] first, int begin, int end,
+              double[::1] out):
+    """out[s] = sum of x_i y_i over the rows first[s] to first[s + 1] of the slabs begin to end."""
+    cdef Py_ssize_t i
+    cdef int s
+    cdef double total
+    with nogil:
+        for s in range(begin, end):
+            total = 0.0
+            for i in range(first[s], first[s + 1]):
+                total += x[i] * y[i]
+            out[s] = total
+
+
 def axpy(double a, const double[::1] x, double[::1] y):
     """y = y + a x."""
     cdef Py_ssize_t i
