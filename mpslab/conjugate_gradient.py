@@ -29,7 +29,7 @@ def conjugate_gradient(system, x, precondition, tolerance, max_iterations, repla
     if b_norm == 0.0:
         x[:] = 0.0
         return SolverReport(0, 0.0, True, replaced)
-    q, z = np.empty_like(x), np.empty_like(x)
+    q, z = np.zeros_like(x), np.empty_like(x)
     r = system.right - system.multiply(x, q)
     p, rho, iterations = np.zeros_like(x), 1.0, 0
     residual = math.sqrt(dot(r, r)) / b_norm

@@ -7,13 +7,13 @@ import mpslab
 
 ROOT = Path(mpslab.__file__).parent
 FLOORS = {
-    6: "tank progress",
+    6: "tank progress launch",
     5: "simulation record watch output checkpoint vtkhdf snapshots overturning gauges pictures "
     "preflight cases initial provenance diagnostics",
     4: "step timestep",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
     "conjugate_gradient piston geometry",
-    2: "balance",
+    2: "balance domain",
     1: "particles neighbors stencil sparse slabs parameters keys plugins bed paddle waves breaking "
     "stopwatch files",
     0: "kernels",

@@ -8,6 +8,7 @@ from tanks import flow_of, make_case, neighbors_of, particles_at, run
 from test_solvers import as_matrix, dense_factor
 
 from mpslab import pressure
+from mpslab.domain import Domain
 from mpslab.laplacians.standard import pair_terms
 from mpslab.slabs import make_slabs
 from mpslab.solvers import iccg, piccg, scg
@@ -26,11 +27,12 @@ def system_by_slab(long=24, high=5, by_slab=True):
     x = particles.position
     particles.surface[:] = x[:, 2] > x[:, 2].max() - 0.5
     stencil = make_stencil(3, 1.0, RADIUS)
-    slabs = make_slabs(x[:, 0].min(), x[:, 0].max(), RADIUS)
+    domain = Domain(make_slabs(x[:, 0].min(), x[:, 0].max(), RADIUS))
+    domain.share_out(particles)
     source = np.random.default_rng(2).normal(size=len(particles))
     return pressure.assemble(
         particles, neighbors_of(x, RADIUS), stencil, pair_terms(stencil), 1000.0, source,
-        slab=slabs.of(x[:, 0]) if by_slab else None, slabs=slabs.count,
+        domain=domain if by_slab else None,
     )  # fmt: skip
 
 

@@ -48,14 +48,12 @@ def assemble(const double[:, ::1] position, const signed char[::1] kind, const i
     return entry
 
 
-def reach(const int[::1] row, const int[::1] column, const double[::1] excess,
-          int[::1] queue, unsigned char[::1] reached):
-    """Mark the rows that are tied to the free surface, directly or through others."""
+def reach(const int[::1] row, const int[::1] column, int[::1] queue, unsigned char[::1] reached):
+    """Mark the rows that can be reached from those marked; returns how many there are then."""
     cdef Py_ssize_t m, k
     cdef int head = 0, tail = 0, c
     with nogil:
-        for m in range(excess.shape[0]):
-            reached[m] = excess[m] > 0.0
+        for m in range(reached.shape[0]):
             if reached[m]:
                 queue[tail] = <int>m
                 tail += 1
