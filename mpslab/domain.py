@@ -15,11 +15,9 @@ from dataclasses import fields
 
 import numpy as np
 
-from mpslab import balance
+from mpslab import balance, rebalance
 from mpslab.particles import ParticleSet
 
-# Cost of a particle outside the water, as a share of that of one in it.
-SOLID = 0.3
 # Set by the launchers of MPICH and of Open MPI.
 LAUNCHED = ("PMI_SIZE", "PMIX_RANK", "OMPI_COMM_WORLD_SIZE")
 
@@ -92,6 +90,8 @@ class Domain:
         CPU time spent in communication and in waiting for it.
     migrated : int
         Particles that came here from other ranks.
+    ghosts : int
+        How many there were in the last step.
     """
 
     def __init__(self, slabs, comm=None):
@@ -100,7 +100,7 @@ class Domain:
         self.rank, self.size = self.comm.rank, self.comm.size
         self.cuts = balance.cut("static", np.zeros(slabs.count), self.size)
         self.slab, self.owned = np.zeros(0, np.int32), np.zeros(0, bool)
-        self.waited, self.migrated = 0.0, 0
+        self.waited, self.migrated, self.ghosts = 0.0, 0, 0
         self._halo = []
 
     @property
@@ -120,7 +120,8 @@ class Domain:
     def take_part(self, particles, method):
         """This rank's share of all particles, cut by a method of :mod:`mpslab.balance`."""
         self.slab = self.slabs.of(particles.position[:, 0])
-        self.cuts = balance.cut(method, self._weights(particles), self.size)
+        work = rebalance.load(method, particles.fluid, self.slab, self.slabs.count)
+        self.cuts = balance.cut(method, work, self.size)
         self.owned = (self.begin <= self.slab) & (self.slab < self.end)
         return self.without_ghosts(particles)
 
@@ -170,6 +171,7 @@ class Domain:
         arrays = _merged([arrays, *self._exchange(arrays, send)])
         self.slab = slab = self._slab_of(arrays)
         self.owned = (self.begin <= slab) & (slab < self.end)
+        self.ghosts = int(np.count_nonzero(~self.owned))
         self._halo = []
         for r in self._beside():
             give = np.flatnonzero(self.owned & np.isin(slab, self.ghosts_of(r)))
@@ -262,11 +264,6 @@ class Domain:
         everything = np.arange(len(particles)) if self.rank else []
         come = self._exchange(arrays, [everything, *[[]] * (self.size - 1)])
         return ParticleSet(*_merged([arrays, *come])) if self.rank == 0 else None
-
-    def _weights(self, particles):
-        """Work that the particles make in each slab (slabs,)."""
-        weight = np.where(particles.fluid, 1.0, SOLID)
-        return np.bincount(self.slab, weight, minlength=self.slabs.count)
 
 
 POSITION = [f.name for f in fields(ParticleSet)].index("position")
