@@ -16,33 +16,11 @@ from dataclasses import fields
 import numpy as np
 
 from mpslab import balance, rebalance
+from mpslab.communicator import Alone, finish, meet, on_root
 from mpslab.particles import ParticleSet
 
 # Set by the launchers of MPICH and of Open MPI.
 LAUNCHED = ("PMI_SIZE", "PMIX_RANK", "OMPI_COMM_WORLD_SIZE")
-
-
-class Alone:
-    """The communicator of a process without others."""
-
-    rank, size = 0, 1
-
-    def allgather(self, item):
-        """What all ranks give, a list."""
-        return [item]
-
-    def bcast(self, item):
-        """What rank 0 gives."""
-        return item
-
-    def Iallreduce(self, give, take):
-        """Sum over the ranks; the request is done at once."""
-        take[:] = give
-        return self
-
-    def Test(self):
-        """Whether a request is done."""
-        return True
 
 
 def world():
@@ -52,20 +30,6 @@ def world():
     from mpi4py import MPI
 
     return MPI.COMM_WORLD
-
-
-def on_root(comm, act):
-    """Result of `act` on rank 0, None elsewhere; an error there is raised on every rank."""
-    result = error = None
-    if comm.rank == 0:
-        try:
-            result = act()
-        except Exception as found:
-            error = found
-    error = comm.bcast(error)
-    if error is not None:
-        raise error
-    return result
 
 
 class Domain:
@@ -190,6 +154,7 @@ class Domain:
         """Send rows[r] of the arrays to each rank r; what comes in, an entry a rank that sends."""
         kind = np.dtype([(str(k), a.dtype, a.shape[1:]) for k, a in enumerate(arrays)])
         began = time.process_time()
+        meet(self.comm)
         counts = self.comm.alltoall([len(r) for r in rows])
         requests, sent, came = [], [], []
         for r in range(self.size):
@@ -230,9 +195,7 @@ class Domain:
         self._wait(requests, began)
 
     def _wait(self, requests, began):
-        for request in requests:
-            while not request.Test():
-                os.sched_yield()  # where ranks share a core, the other one has work to do
+        finish(requests)
         self.waited += time.process_time() - began
 
     def add(self, by_slab):
@@ -252,9 +215,17 @@ class Domain:
     def from_all(self, item):
         """What each rank gives, a list in the order of ranks, the same on all of them."""
         began = time.process_time()
+        meet(self.comm)
         items = self.comm.allgather(item)
         self.waited += time.process_time() - began
         return items
+
+    def on_root(self, act):
+        """As the function `on_root`; for the other ranks that is waiting."""
+        began = time.process_time()
+        result = on_root(self.comm, act)
+        self.waited += time.process_time() - began if self.rank else 0.0
+        return result
 
     def gather(self, particles):
         """The particles of all ranks in the order of gid on rank 0, None elsewhere."""

@@ -5,7 +5,6 @@ import warnings
 import numpy as np
 
 from mpslab import checkpoint, diagnostics, gauges, vtkhdf
-from mpslab.domain import on_root
 from mpslab.output import PROBE_QUANTITIES, STEP_COLUMNS
 from mpslab.particles import KIND_NAMES
 
@@ -34,7 +33,7 @@ class Record:
     def _write(self, act):
         """Call `act` on rank 0, if the run has a folder."""
         if self.folder:
-            on_root(self.flow.domain.comm, act)
+            self.flow.domain.on_root(act)
 
     def begin(self, step=None):
         """Open the tables; after a restart, drop what is later than its step and time."""

@@ -6,7 +6,8 @@ import numpy as np
 
 from mpslab import checkpoint, diagnostics, geometry, initial, timestep
 from mpslab.cases import dumps, load_case
-from mpslab.domain import on_root, world
+from mpslab.communicator import on_root
+from mpslab.domain import world
 from mpslab.output import RunFolder
 from mpslab.particles import ParticleSet
 from mpslab.piston import Piston, make_paddle
