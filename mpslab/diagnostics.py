@@ -32,6 +32,15 @@ def potential_energy(particles, stencil, density, gravity):
     return mass * gravity * float(particles.position[particles.fluid, 2].sum())
 
 
+def piston_force(particles, stencil):
+    """Force of the piston on the water along x; in 2-D on a slice 1 m wide [N].
+
+    The pressure of the piston's first layer, each particle for a face of d0^(Ds-1).
+    """
+    face = stencil.spacing ** (stencil.dim - 1)
+    return face * float(particles.pressure[particles.kind == PISTON].sum())
+
+
 def volume(particles, stencil):
     """Volume that the fluid takes up: a particle inside counts as n0/n of its own [m3].
 
