@@ -42,11 +42,13 @@ def piston_force(particles, stencil):
 
 
 def volume(particles, stencil):
-    """Volume that the fluid takes up: a particle inside counts as n0/n of its own [m3].
+    """Volume that the fluid takes up: a particle inside counts as n_r/n of its own [m3].
 
-    Surface particles lack neighbours for another reason and count in full.
+    n_r is the number density of relaxed water (`Stencil.relaxed`): in 3-D the lattice of the start
+    counts as 2.5 % too little.  Surface particles lack neighbours for another reason and count in
+    full.
     """
     inside = particles.fluid & (particles.surface == 0) & (particles.number_density > 0.0)
-    share = float(np.sum(stencil.n0 / particles.number_density[inside]))
+    share = float(np.sum(stencil.relaxed / particles.number_density[inside]))
     surface = np.count_nonzero(particles.fluid) - np.count_nonzero(inside)
     return particle_volume(stencil) * (share + surface)

@@ -1,7 +1,7 @@
 """Measures of a finished run, from its folder: ``python -m mpslab.measures FOLDER``.
 
-Writes ``measures.csv``, a row for each frame of particles, and prints what they come to: order of the
-water, breaking, and where the energy went.
+Writes ``measures.csv``, a row for each frame of particles, and prints what they come to: order of
+the water, breaking, where the energy went, and the wave at the gauges.
 """
 
 import argparse
@@ -20,6 +20,7 @@ from mpslab.snapshots import middle_slice
 
 BAD_INPUT = 2
 SETTLED = 0.25  # share of the run after which means are taken
+PERIODS = 2  # at the end of a record, over which its harmonics are taken
 
 
 def measure(folder):
@@ -70,6 +71,7 @@ def _frame(time, frame, case):
     x, u = frame["position"][fluid].astype(float), frame["velocity"][fluid].astype(float)
     row = {
         "time [s]": time,
+        "particle_volume [m3]": len(x) * spacing ** (3 if width else 2),
         "rms_speed [m/s]": np.sqrt(np.mean(np.sum(u**2, axis=1))),
         "mean_z [m]": x[:, 2].mean(),
         "isolated_share": scatter.isolated_share(x, spacing, period),
@@ -112,8 +114,8 @@ def ledger(steps):
     Returns
     -------
     dict of str to float
-        Work of the piston, and the changes of kinetic and potential energy since the first step; what
-        is left over was dissipated [J].
+        Work of the piston, and the changes of kinetic and potential energy since the first step;
+        what is left over was dissipated [J].
     """
     kinetic, potential = steps["kinetic_energy [J]"], steps["potential_energy [J]"]
     book = {
@@ -125,7 +127,38 @@ def ledger(steps):
     return book | {"dissipated": book["work of the piston"] - gained}
 
 
-def summary(rows, steps):
+def harmonics(gauges, period):
+    """First harmonic and height of the wave at each gauge, over its last two periods.
+
+    Parameters
+    ----------
+    gauges : dict of str to (n,) float64
+        Columns of ``gauges.csv``.
+    period : float [s]
+
+    Returns
+    -------
+    list of (name, amplitude, height)
+        Amplitude of the first harmonic, and highest less lowest level [m]; empty for a record
+        shorter than three periods.
+    """
+    time, *_ = gauges.values()
+    if time[-1] - time[0] < (PERIODS + 1) * period:
+        return []
+    last = time > time[-1] - PERIODS * period
+    phase = 2.0 * np.pi / period * time[last]
+    waves = [f(k * phase) for k in (1, 2, 3) for f in (np.cos, np.sin)]
+    terms = np.stack([np.ones_like(phase), *waves], axis=1)
+    found = []
+    for name, level in list(gauges.items())[1:]:
+        eta = level[last]
+        if np.isfinite(eta).all():
+            fit = np.linalg.lstsq(terms, eta, rcond=None)[0]
+            found.append((name.removesuffix(" [m]"), np.hypot(fit[1], fit[2]), np.ptp(eta)))
+    return found
+
+
+def summary(rows, steps, gauges, period):
     """The lines that the command prints."""
     settled = [row for row in rows if row["time [s]"] >= SETTLED * rows[-1]["time [s]"]]
     lines = [f"{len(rows)} frames; means from t = {settled[0]['time [s]']:.3g} s on"]
@@ -140,11 +173,20 @@ def summary(rows, steps):
             f"x = {jets[0]['crest_x [m]']:.3f} m, z = {jets[0]['crest_z [m]']:.3f} m"
         )
     if steps:
+        lines.append(f"Volume over that of its particles: {_volume_share(rows, steps):.4f}")
         lines.append("Energy [J] (2-D: of a slice 1 m wide)")
         lines += [f"  {name}: {value:.5g}" for name, value in ledger(steps).items()]
-        volume = steps["volume [m3]"]
-        lines.append(f"Volume: {100.0 * (volume[-1] / volume[0] - 1.0):+.2f} %")
+    if gauges and period > 0.0:
+        lines += [
+            f"  gauge {name}: first harmonic {1e3 * amplitude:.2f} mm, height {1e3 * height:.2f} mm"
+            for name, amplitude, height in harmonics(gauges, period)
+        ]
     return lines
+
+
+def _volume_share(rows, steps):
+    """Volume in the last step over the volume of the particles in the last frame."""
+    return steps["volume [m3]"][-1] / rows[-1]["particle_volume [m3]"]
 
 
 def write(path, rows):
@@ -166,7 +208,8 @@ def main(arguments=None):
         print(f"mpslab: {error}", file=sys.stderr)
         return BAD_INPUT
     write(folder / "measures.csv", rows)
-    print("\n".join(summary(rows, read_table(folder / "steps.csv"))))
+    tables = (read_table(folder / f"{name}.csv") for name in ("steps", "gauges"))
+    print("\n".join(summary(rows, *tables, read_case(folder)["wavemaker"]["period"])))
     return 0
 
 

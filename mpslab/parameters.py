@@ -142,7 +142,10 @@ class Scheme:
     laplacian: str = key("Laplacian of pressure", "standard", family="laplacians")
     solver: str = key("solver of the Poisson equation", "iccg", family="solvers")
     stabiliser: tuple = key(
-        "what keeps particles apart", ("corrected_shifting", "ds"), kind="texts", family="stabilisers"
+        "what keeps particles apart",
+        ("corrected_shifting", "ds"),
+        kind="texts",
+        family="stabilisers",
     )
     projection: str = key(
         "where the pressure acts: at the predicted positions (as in MPS), or those of the start",
@@ -169,7 +172,8 @@ class Scheme:
     gamma: float = key(
         "weight of the density error in the sources 'mixed', 'corrected' and 'adjoint'",
         0.005,
-        low=0, high=1
+        low=0,
+        high=1,
     )
     surface_threshold: float = key(
         "n/n0 below which a particle is free surface, where it is marked", 0.97, above=0, high=1

@@ -27,6 +27,7 @@ CLASSIC = {
     "scheme.projection": "predicted",
     "scheme.walls": "solved",
     "scheme.surface": "marked",
+    "scheme.stabiliser": ["shifting", "ds"],
 }
 
 

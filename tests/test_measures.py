@@ -103,3 +103,20 @@ def test_frames_without_velocity_are_refused_by_their_key(tmp_path, capsys):
     Simulation(make_case({"time.end": 0.002, "output.fields": ["kind"]}), tmp_path / "run").run()
     assert measures.main([str(tmp_path / "run")]) == 2
     assert "output.fields = ['kind']: must hold pressure, velocity" in capsys.readouterr().err
+
+
+def test_harmonics_find_the_first_harmonic_and_the_height_of_a_record():
+    time = np.linspace(0.0, 2.0, 801)
+    phase = 2.0 * np.pi * time / 0.5
+    eta = 0.04 + 0.01 * np.cos(phase - 0.7) + 0.002 * np.sin(2.0 * phase)
+    dry = np.where(time > 1.5, np.nan, eta)
+    found = measures.harmonics({"time [s]": time, "a [m]": eta, "b [m]": dry}, 0.5)
+    (name, amplitude, height) = found[0]
+    assert (len(found), name) == (1, "a")
+    assert amplitude == pytest.approx(0.01, rel=1e-3)
+    assert height == pytest.approx(np.ptp(eta[time > 1.0]), rel=1e-12)
+
+
+def test_harmonics_of_a_record_too_short_are_left_out():
+    time = np.linspace(0.0, 1.4, 100)
+    assert measures.harmonics({"time [s]": time, "a [m]": time}, 0.5) == []

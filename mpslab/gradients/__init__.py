@@ -11,6 +11,6 @@ Each module has one function::
     out : (n, 3) float64 [Pa/m], written for fluid particles, zero elsewhere
 
 and two flags that say what it promises: ``CONSERVES_MOMENTUM`` (pair forces between fluid
-particles are equal and opposite) and ``EXACT_FOR_LINEAR`` (any arrangement of neighbours).  A module
-of any family that works with the correction matrices says so with ``NEEDS_CORRECTION = True``.
+particles are equal and opposite) and ``EXACT_FOR_LINEAR`` (any arrangement of neighbours).  A
+module of any family that works with the correction matrices says ``NEEDS_CORRECTION = True``.
 """

@@ -10,9 +10,10 @@ def source(
 ):
     """b_i = -<div u*>_i/dt + gamma (n_i - n_r)/(n_r dt^2) [1/s2].
 
-    <div u>_i = (Ds/n0) sum_j u_ij . C_j r_ij w/r^2.  The pressure forces of the gradient "corrected"
-    do the work sum_i p_i <div u>_i of just this divergence: made zero, they neither give energy
-    to the water nor take any.  n_r is the number density of relaxed water (`Stencil.relaxed`).
+    <div u>_i = (Ds/n0) sum_j u_ij . C_j r_ij w/r^2.  The pressure forces of the gradient
+    "corrected" do the work sum_i p_i <div u>_i of just this divergence: where it is zero, they
+    neither give energy to the water nor take any.  n_r is the number density of relaxed water
+    (`Stencil.relaxed`).
     """
     adjoint_divergence(position, velocity, kind, indptr, indices, stencil, correction, out)
     out /= -dt
