@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from mpslab.kernels.sparse import axpy, dot, xpay
+from mpslab.kernels.sparse import axpy, xpay
 from mpslab.sparse import SolverReport
 
 
@@ -24,11 +24,12 @@ def conjugate_gradient(system, x, precondition, tolerance, max_iterations, repla
     replaced : int
         Handed through to the report.
     """
+    dot = system.dot
     b_norm = math.sqrt(dot(system.right, system.right))
     if b_norm == 0.0:
         x[:] = 0.0
         return SolverReport(0, 0.0, True, replaced)
-    q, z = np.empty_like(x), np.empty_like(x)
+    q, z = np.zeros_like(x), np.empty_like(x)
     r = system.right - system.multiply(x, q)
     p, rho, iterations = np.zeros_like(x), 1.0, 0
     residual = math.sqrt(dot(r, r)) / b_norm

@@ -29,6 +29,21 @@ def period(case):
     return rows_across(case) * case.particles.spacing if periodic else 0.0
 
 
+def extent(case, backmost=0.0):
+    """Where the bed begins and ends in x, the layers behind the end walls included [m].
+
+    Parameters
+    ----------
+    case : mpslab.parameters.Case
+    backmost : float [m]
+        Least displacement of the piston; the bed reaches that far behind it.
+    """
+    spacing = case.particles.spacing
+    beyond = case.particles.layers * spacing
+    behind = np.ceil(-backmost / spacing) * spacing + beyond
+    return -behind, effective_length(case) + beyond
+
+
 def build_particles(case, backmost=0.0):
     """Particles of a case at rest, with hydrostatic pressure.
 

@@ -20,7 +20,7 @@ class Piston:
     Parameters
     ----------
     particles : ParticleSet
-        As laid out, the piston at rest with its face at x = 0.
+        All of the tank as laid out, the piston at rest with its face at x = 0.
     paddle : mpslab.paddle.Paddle or None
         Motion of the wavemaker; None for a tank without one.
     spacing : float [m]
@@ -30,6 +30,7 @@ class Piston:
         self.paddle = paddle
         self.margin = 0.75 * spacing
         moving = particles.moves_with_piston
+        self.gid = particles.gid[moving]
         self.rest = particles.position[moving, 0].copy()
         near = paddle.foremost + spacing if paddle else -np.inf
         bed = (particles.kind == WALL) & (particles.position[:, 0] < near)
@@ -49,12 +50,14 @@ class Piston:
         """Take the piston to its place at a time, and cover the bed behind it."""
         if self.paddle is None:
             return
-        particles.position[particles.moves_with_piston, 0] = self.rest + self.face(time)
+        moving = np.flatnonzero(particles.moves_with_piston)
+        rest = self.rest[np.searchsorted(self.gid, particles.gid[moving])]
+        particles.position[moving, 0] = rest + self.face(time)
         self.cover(particles, self.face(time))
 
     def cover(self, particles, face):
         """Bed behind the face carries no pressure: else it would tie the corner to p = 0."""
-        rows = np.searchsorted(particles.gid, self.bed)
+        rows = np.flatnonzero(np.isin(particles.gid, self.bed, kind="sort"))
         behind = particles.position[rows, 0] < face - self.margin
         particles.kind[rows] = np.where(behind, DUMMY, WALL)
         particles.pressure[rows[behind]] = 0.0

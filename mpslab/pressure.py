@@ -8,7 +8,8 @@ from mpslab.sparse import PressureSystem
 
 
 def assemble(
-    particles, neighbors, stencil, pair_terms, density, source, kind=None, surface_pull=None
+    particles, neighbors, stencil, pair_terms, density, source, kind=None, surface_pull=None,
+    domain=None,
 ):
     """System of the particles that carry a pressure and are not at the surface.
 
@@ -26,6 +27,8 @@ def assemble(
         Kinds that stand in for those of the particles.
     surface_pull : (n,) float64, optional
         Added to the diagonal; with it, surface particles have rows as all others.
+    domain : mpslab.domain.Domain, optional
+        With it, rows are numbered by slab, and in a slab by gid; without it, by gid.
 
     Returns
     -------
@@ -35,35 +38,61 @@ def assemble(
     """
     kind = particles.kind if kind is None else kind
     inner = particles.surface == 0 if surface_pull is None else True
-    rows = np.flatnonzero(carries_pressure(kind) & inner)
+    rows = np.flatnonzero(carries_pressure(kind) & inner).astype(np.int32)
+    first = None
+    if domain:
+        rows, first = _by_slab(rows, domain.slab[rows], domain.slabs.count)
     m, most = len(rows), len(neighbors.indices)
     unknown = np.full(len(particles), -1, np.int32)
     unknown[rows] = np.arange(m, dtype=np.int32)
     row, diagonal, excess = np.empty(m + 1, np.int32), np.empty(m), np.empty(m)
     column, value = np.empty(most, np.int32), np.empty(most)
     entries = poisson.assemble(
-        particles.position, kind, neighbors.indptr, neighbors.indices, unknown,
+        particles.position, kind, neighbors.indptr, neighbors.indices, rows, unknown,
         stencil, pair_terms, 1.0 / density, row, column, value, diagonal, excess,
     )  # fmt: skip
     column, value = column[:entries], value[:entries]
     if surface_pull is not None:
         diagonal += surface_pull[rows]
         excess += surface_pull[rows]
-    _hold_cut_off_rows(row, column, diagonal, excess)
-    return PressureSystem(row, column, value, diagonal, source[rows]), rows
+    system = PressureSystem(row, column, value, diagonal, source[rows], first, domain)
+    system.refresh(diagonal)
+    _hold_cut_off_rows(system, excess)
+    return system, rows
 
 
-def _hold_cut_off_rows(row, column, diagonal, excess):
+def _by_slab(rows, slab, slabs):
+    """Rows sorted by slab, those of a slab in their old order; and the first of each slab."""
+    size = np.bincount(slab, minlength=slabs)
+    first = np.concatenate([[0], np.cumsum(size)]).astype(np.int32)
+    return rows[np.argsort(slab, kind="stable")], first
+
+
+def _hold_cut_off_rows(system, excess):
     """Make the diagonal of rows that no path ties to the surface larger: they would be singular.
 
     It is doubled; where it is 0, for lack of any neighbour with a pressure, it becomes the largest.
     """
-    reached = np.empty(len(diagonal), np.uint8)
-    queue = np.empty(len(diagonal), np.int32)
-    if poisson.reach(row, column, excess, queue, reached) < len(diagonal):
-        alone = reached == 0
-        largest = diagonal.max() or 1.0
+    alone = ~_reached(system, excess > 0.0)
+    diagonal, collect = system.diagonal, system.from_all
+    if any(collect(bool(alone.any()))):
+        largest = max(collect(float(diagonal.max(initial=0.0)))) or 1.0
         diagonal[alone] = np.where(diagonal[alone] > 0.0, 2.0 * diagonal[alone], largest)
+
+
+def _reached(system, tied):
+    """Rows that a path leads to from those that are tied to the surface, (m,) bool.
+
+    Each rank looks among its own rows and ghosts, until no path leads across a border any more.
+    """
+    reached, queue = tied.astype(np.uint8), np.empty(len(system), np.int32)
+    system.refresh(reached)
+    while True:
+        poisson.reach(system.row, system.column, queue, reached)
+        found = reached.copy()
+        system.refresh(reached)
+        if not any(system.from_all(bool(np.any(reached != found)))):
+            return reached.astype(bool)
 
 
 def solve(system, rows, particles, solver, tolerance, max_iterations, clip):

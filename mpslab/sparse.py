@@ -14,10 +14,15 @@ class PressureSystem:
     Attributes
     ----------
     row : (m + 1,) int32
-    column : (entries,) int32, ascending in a row
+    column : (entries,) int32, in a row in the order of the particles' gid
     value : (entries,) float64
     diagonal : (m,) float64
     right : (m,) float64
+    first : (slabs + 1,) int32
+        First row of each slab, and m; one slab unless given.
+    domain : mpslab.domain.Domain, optional
+        With it the rows of this rank's ghosts are among the m, but solved on the rank that owns
+        them; `multiply` and `dot` see to that.
     """
 
     row: np.ndarray
@@ -25,13 +30,48 @@ class PressureSystem:
     value: np.ndarray
     diagonal: np.ndarray
     right: np.ndarray
+    first: np.ndarray = None
+    domain: object = None
+
+    def __post_init__(self):
+        if self.first is None:
+            self.first = np.array([0, len(self)], np.int32)
 
     def __len__(self):
         return len(self.diagonal)
 
+    @property
+    def begin(self):
+        """First slab whose rows are solved here."""
+        return self.domain.begin if self.domain else 0
+
+    @property
+    def end(self):
+        """Slab after the last one whose rows are solved here."""
+        return self.domain.end if self.domain else len(self.first) - 1
+
+    def dot(self, x, y):
+        """x . y over all ranks, from the sums of the slabs, added in the order of the slabs."""
+        sums = np.zeros(len(self.first) - 1)
+        sparse.slab_dots(x, y, self.first, self.begin, self.end, sums)
+        return self.domain.add(sums) if self.domain else sum(sums.tolist())
+
+    def refresh(self, x):
+        """Give the ghosts' rows of x the values that their owners have."""
+        if self.domain:
+            self.domain.refresh_rows(x, self.first)
+
+    def from_all(self, item):
+        """What each rank gives, a list."""
+        return self.domain.from_all(item) if self.domain else [item]
+
     def multiply(self, x, out):
-        """out = A x."""
-        sparse.multiply(self.row, self.column, self.value, self.diagonal, x, out)
+        """out = A x in this rank's rows."""
+        self.refresh(x)
+        begin, end = self.first[self.begin], self.first[self.end]
+        sparse.multiply(
+            self.row, self.column, self.value, self.diagonal, x, out, begin, end
+        )
         return out
 
 

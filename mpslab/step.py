@@ -5,11 +5,13 @@ from types import ModuleType
 
 import numpy as np
 
-from mpslab import correction, plugins, pressure, surface, walls
+from mpslab import correction, geometry, plugins, pressure, surface, walls
+from mpslab.domain import Domain
 from mpslab.kernels import density, viscosity
 from mpslab.neighbors import NeighborList
 from mpslab.particles import ParticleSet
 from mpslab.piston import Piston
+from mpslab.slabs import make_slabs
 from mpslab.stencil import Stencil, make_stencil
 from mpslab.stopwatch import Stopwatch
 
@@ -22,9 +24,11 @@ class Flow:
     ----------
     case : mpslab.parameters.Case
     particles : ParticleSet
+        Those that this rank owns; within a step also its ghosts.
     piston : Piston
     stencil, laplacian_stencil : Stencil
         Of gradient and number density, and of the Laplacian.
+    domain : Domain
     neighbors : NeighborList
         Where the pressure acted last.
     correction : (n, 6) float64 or None
@@ -37,6 +41,7 @@ class Flow:
     piston: Piston
     stencil: Stencil
     laplacian_stencil: Stencil
+    domain: Domain
     gradient: ModuleType
     source: ModuleType
     solver: ModuleType
@@ -59,26 +64,46 @@ class Flow:
         return any(getattr(model, "NEEDS_CORRECTION", False) for model in models)
 
 
-def make_flow(case, particles, piston, width):
+def make_flow(case, particles, piston, width, comm=None):
     """Load the models that a case names.
 
     Parameters
     ----------
+    particles : ParticleSet
+        All particles of the tank; the flow keeps those of this rank.
     width : float [m]
         Period across the tank, 0 when not periodic.
+    comm : communicator, optional
+        As for `mpslab.domain.Domain`.
+
+    Raises
+    ------
+    ValueError
+        If the models, or the tank, cannot be shared out among so many ranks.
     """
     scheme, spacing = case.scheme, case.particles.spacing
     dim = 2 if case.tank.width == 0.0 else 3
+    stencil = make_stencil(dim, spacing, scheme.effective_radius, width)
     laplacian_stencil = make_stencil(dim, spacing, scheme.laplacian_radius, width)
+    extent = geometry.extent(case, piston.paddle.backmost if piston.paddle else 0.0)
+    slabs = make_slabs(*extent, max(stencil.radius, laplacian_stencil.radius))
+    domain = Domain(slabs, comm)
+    solver = plugins.load("solvers", scheme.solver)
+    if domain.size > 1 and not solver.BY_SLAB:
+        raise ValueError(
+            f'scheme.solver = "{scheme.solver}": runs on one rank only; on {domain.size} ranks '
+            'choose "piccg" or "scg"'
+        )
     return Flow(
         case=case,
-        particles=particles,
+        particles=domain.take_part(particles, case.parallel.balance),
         piston=piston,
-        stencil=make_stencil(dim, spacing, scheme.effective_radius, width),
+        stencil=stencil,
         laplacian_stencil=laplacian_stencil,
+        domain=domain,
         gradient=plugins.load("gradients", scheme.gradient),
         source=plugins.load("sources", scheme.source),
-        solver=plugins.load("solvers", scheme.solver),
+        solver=solver,
         pair_terms=plugins.load("laplacians", scheme.laplacian).pair_terms(laplacian_stencil),
         stabilisers=tuple(plugins.load("stabilisers", name) for name in scheme.stabiliser),
     )
@@ -91,9 +116,12 @@ def advance(flow, dt):
     correct with its gradient (equations 1 to 4 of the paper).  One neighbour list serves the
     whole step: viscosity, too, is evaluated where the pressure acts.
     """
-    particles, watch = flow.particles, flow.stopwatch
-    start, before = particles.position.copy(), particles.velocity.copy()
+    watch, domain = flow.stopwatch, flow.domain
+    start, before = flow.particles.position.copy(), flow.particles.velocity.copy()
     _predict(flow, dt)
+    with watch.phase("ghosts"):
+        flow.particles, (start, before) = domain.share_out(flow.particles, start, before)
+    particles = flow.particles
     with watch.phase("neighbours"):
         _find_neighbors(flow)
     with watch.phase("operators"):
@@ -109,6 +137,7 @@ def advance(flow, dt):
         report = _solve(flow, system, rows, pull)
     with watch.phase("operators"):
         _correct(flow, start, dt)
+    flow.particles = domain.without_ghosts(particles)
     flow.time += dt
     return report
 
@@ -156,10 +185,13 @@ def _find_surface(flow):
         particles.position, neighbors.indptr, neighbors.indices, flow.stencil,
         particles.number_density,
     )  # fmt: skip
-    if flow.case.scheme.surface == "graded":
-        return surface.grade_surface(particles, neighbors, flow.stencil)
-    surface.mark_surface(particles, neighbors, flow.stencil, flow.case.scheme.surface_threshold)
-    return None
+    graded, scheme = None, flow.case.scheme
+    if scheme.surface == "graded":
+        graded = surface.grade_surface(particles, neighbors, flow.stencil)
+    else:
+        surface.mark_surface(particles, neighbors, flow.stencil, scheme.surface_threshold)
+    flow.domain.refresh(particles.surface)
+    return graded
 
 
 def _assemble(flow, graded, pull, dt):
@@ -180,8 +212,9 @@ def _assemble(flow, graded, pull, dt):
     )  # fmt: skip
     if flow.extrapolates:
         right += walls.flux(particles, neighbors, stencil, terms, pull)
+    domain = flow.domain if flow.solver.BY_SLAB else None
     return pressure.assemble(
-        particles, neighbors, stencil, terms, rho, right, kind, towards_zero
+        particles, neighbors, stencil, terms, rho, right, kind, towards_zero, domain
     )
 
 
@@ -193,6 +226,7 @@ def _solve(flow, system, rows, pull):
     )  # fmt: skip
     if flow.extrapolates:
         walls.fill(particles, flow.neighbors, flow.stencil, flow.case.fluid.density, pull)
+        flow.domain.refresh(particles.pressure)
     return report
 
 
@@ -217,9 +251,11 @@ def _correct(flow, start, dt):
 
 
 def _stabilise(flow, stage, before, dt):
-    for model in flow.stabilisers:
-        if stage == model.STAGE:
-            model.stabilise(
-                flow.particles, before, flow.neighbors, flow.stencil, flow.correction, dt,
-                flow.case.scheme,
-            )
+    particles, models = flow.particles, [m for m in flow.stabilisers if stage == m.STAGE]
+    for model in models:
+        flow.domain.refresh(particles.position, particles.velocity)
+        model.stabilise(
+            particles, before, flow.neighbors, flow.stencil, flow.correction, dt, flow.case.scheme
+        )
+    if models and stage == "predicted":
+        flow.domain.refresh(particles.position, particles.velocity)

@@ -7,13 +7,14 @@ import mpslab
 
 ROOT = Path(mpslab.__file__).parent
 FLOORS = {
-    6: "tank progress measures",
+    6: "tank progress measures launch",
     5: "simulation record watch output checkpoint vtkhdf snapshots overturning gauges pictures "
     "preflight cases initial provenance diagnostics scatter",
     4: "step timestep",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
     "conjugate_gradient piston geometry correction",
-    1: "particles neighbors stencil sparse parameters keys plugins bed paddle waves breaking "
+    2: "balance domain",
+    1: "particles neighbors stencil sparse slabs parameters keys plugins bed paddle waves breaking "
     "stopwatch files",
     0: "kernels",
 }

@@ -50,8 +50,8 @@ def solve(name, system, x, tolerance=TOLERANCE, most=1000):
     return plugins.load("solvers", name).solve(system, x, tolerance, most)
 
 
-def test_two_solvers_are_there():
-    assert {"iccg", "scg"} <= set(NAMES)
+def test_three_solvers_are_there():
+    assert {"iccg", "piccg", "scg"} <= set(NAMES)
 
 
 @pytest.mark.parametrize("dim", [2, 3])

@@ -3,10 +3,10 @@ from mpslab.kernels.pair cimport distance, has_pressure, wrap
 
 
 def assemble(const double[:, ::1] position, const signed char[::1] kind, const int[::1] indptr,
-             const int[::1] indices, const int[::1] unknown, stencil, pair_terms, double scale,
-             int[::1] row, int[::1] column, double[::1] value, double[::1] diagonal,
-             double[::1] excess):
-    """Rows of  -scale <lap p>  for the particles with a number in `unknown` (others: -1).
+             const int[::1] indices, const int[::1] rows, const int[::1] unknown, stencil,
+             pair_terms, double scale, int[::1] row, int[::1] column, double[::1] value,
+             double[::1] diagonal, double[::1] excess):
+    """Rows of  -scale <lap p>  for the particles `rows`; `unknown` is their number (others: -1).
 
     Off-diagonal entries are -scale L(r_ij); the diagonal is the sum of scale L(r_ij) over all
     neighbours that carry a pressure, so that free-surface particles act as p = 0 and walls as
@@ -17,13 +17,11 @@ def assemble(const double[:, ::1] position, const signed char[::1] kind, const i
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double one = pair_terms[0], inverse = pair_terms[1], cubic = pair_terms[2]
     cdef double a, total, free
-    cdef Py_ssize_t i, k, j
-    cdef int entry = 0, m
+    cdef Py_ssize_t m, i, k, j
+    cdef int entry = 0
     with nogil:
-        for i in range(indptr.shape[0] - 1):
-            m = unknown[i]
-            if m < 0:
-                continue
+        for m in range(rows.shape[0]):
+            i = rows[m]
             row[m] = entry
             total = free = 0.0
             for k in range(indptr[i], indptr[i + 1]):
@@ -50,14 +48,12 @@ def assemble(const double[:, ::1] position, const signed char[::1] kind, const i
     return entry
 
 
-def reach(const int[::1] row, const int[::1] column, const double[::1] excess,
-          int[::1] queue, unsigned char[::1] reached):
-    """Mark the rows that are tied to the free surface, directly or through others."""
+def reach(const int[::1] row, const int[::1] column, int[::1] queue, unsigned char[::1] reached):
+    """Mark the rows that can be reached from those marked; returns how many there are then."""
     cdef Py_ssize_t m, k
     cdef int head = 0, tail = 0, c
     with nogil:
-        for m in range(excess.shape[0]):
-            reached[m] = excess[m] > 0.0
+        for m in range(reached.shape[0]):
             if reached[m]:
                 queue[tail] = <int>m
                 tail += 1

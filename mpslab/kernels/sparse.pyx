@@ -2,12 +2,16 @@
 
 
 def multiply(const int[::1] row, const int[::1] column, const double[::1] value,
-             const double[::1] diagonal, const double[::1] x, double[::1] out):
-    """out = A x; A is symmetric, its diagonal stored beside the off-diagonal rows."""
+             const double[::1] diagonal, const double[::1] x, double[::1] out,
+             Py_ssize_t begin=0, Py_ssize_t end=-1):
+    """out = A x in the rows from begin to end (-1: all); A is symmetric.
+
+    The diagonal is stored beside the off-diagonal rows.
+    """
     cdef Py_ssize_t i, k
     cdef double total
     with nogil:
-        for i in range(diagonal.shape[0]):
+        for i in range(begin, diagonal.shape[0] if end < 0 else end):
             total = diagonal[i] * x[i]
             for k in range(row[i], row[i + 1]):
                 total += value[k] * x[column[k]]
@@ -22,6 +26,20 @@ def dot(const double[::1] x, const double[::1] y):
         for i in range(x.shape[0]):
             total += x[i] * y[i]
     return total
+
+
+def slab_dots(const double[::1] x, const double[::1] y, const int[::1] first, int begin, int end,
+              double[::1] out):
+    """out[s] = sum of x_i y_i over the rows first[s] to first[s + 1] of the slabs begin to end."""
+    cdef Py_ssize_t i
+    cdef int s
+    cdef double total
+    with nogil:
+        for s in range(begin, end):
+            total = 0.0
+            for i in range(first[s], first[s + 1]):
+                total += x[i] * y[i]
+            out[s] = total
 
 
 def axpy(double a, const double[::1] x, double[::1] y):

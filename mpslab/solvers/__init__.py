@@ -4,5 +4,6 @@ Each module has one function::
 
     solve(system, x, tolerance, max_iterations) -> mpslab.sparse.SolverReport
 
-which starts from ``x`` and leaves the solution there.
+which starts from ``x`` and leaves the solution there, and a flag ``BY_SLAB``: whether it wants
+the rows by slab, as all solvers do that run on many ranks, or in the order of the particles.
 """

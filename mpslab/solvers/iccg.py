@@ -5,6 +5,8 @@ import numpy as np
 from mpslab.conjugate_gradient import conjugate_gradient
 from mpslab.kernels import sparse
 
+BY_SLAB = False  # each row waits for the one before it: on one rank only
+
 
 def solve(system, x, tolerance, max_iterations):
     """Solve A x = b with A ~ (I + L) D (I + L)^T, no fill; see :mod:`mpslab.solvers`."""

@@ -4,6 +4,8 @@ import numpy as np
 
 from mpslab.conjugate_gradient import conjugate_gradient
 
+BY_SLAB = True
+
 
 def solve(system, x, tolerance, max_iterations):
     """Solve A x = b with z = r / diag(A); see :mod:`mpslab.solvers`."""

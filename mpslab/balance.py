@@ -1,0 +1,93 @@
+"""Where to cut the tank among ranks: pure functions of the slabs' loads.
+
+Each function takes the load of every slab, in the order of x, and returns the cuts, (ranks + 1,)
+int: rank k owns the slabs ``cuts[k]`` to ``cuts[k + 1] - 1``, one at least.
+"""
+
+import numpy as np
+
+
+def cut(name, load, ranks):
+    """Cuts by the method ``parallel.balance`` names: "static", "centroid" or "optimal".
+
+    Parameters
+    ----------
+    name : str
+    load : (slabs,) float
+        Cost of each slab, not negative; "centroid" expects numbers of particles.
+    ranks : int
+
+    Raises
+    ------
+    ValueError
+        If there are more ranks than slabs, or the method has no answer for that many ranks.
+    """
+    load = np.asarray(load, float)
+    if not 1 <= ranks <= len(load):
+        raise ValueError(
+            f"ranks = {ranks}: must be from 1 to {len(load)}, the number of slabs of the tank "
+            "(each as wide as the influence radius)"
+        )
+    return {"static": static, "centroid": centroid, "optimal": optimal}[name](load, ranks)
+
+
+def static(load, ranks):
+    """Parts of equal width, whatever the loads."""
+    return np.round(np.linspace(0, len(load), ranks + 1)).astype(int)
+
+
+def centroid(load, ranks):
+    """Bisect at the centre of mass, again and again (section 4 of the paper, DDD).
+
+    The centre of mass follows from the numbers of particles in the slabs and their moments; the
+    cut goes to the slab border next to it.
+
+    Raises
+    ------
+    ValueError
+        If the number of ranks is not a power of two.
+    """
+    if ranks & (ranks - 1):
+        raise ValueError(
+            f'ranks = {ranks}: must be a power of two with parallel.balance = "centroid", which '
+            'bisects; "optimal" and "static" take any number'
+        )
+    return np.array([*_bisect(load, 0, ranks), len(load)])
+
+
+def _bisect(load, first, ranks):
+    """First slab of each rank; the slabs of `load` begin with number `first`."""
+    if ranks == 1:
+        return [first]
+    half, mass = ranks // 2, load.sum()
+    centre = (load @ (np.arange(len(load)) + 0.5)) / mass if mass > 0.0 else 0.5 * len(load)
+    middle = int(np.clip(round(centre), half, len(load) - half))
+    left = _bisect(load[:middle], first, half)
+    return left + _bisect(load[middle:], first + middle, half)
+
+
+def optimal(load, ranks):
+    """Contiguous cuts with the least possible load of the busiest rank, exactly.
+
+    By dynamic programming: the best that k ranks can do with the first j slabs follows from the
+    best of k - 1 ranks with fewer.
+    """
+    n = len(load)
+    total = np.concatenate([[0.0], np.cumsum(load)])
+    part = total[None, :] - total[:, None]  # load of the slabs i to j - 1
+    part[np.tril_indices(n + 1)] = np.inf
+    best, choices = part[0], []
+    for _ in range(ranks - 1):
+        worst = np.maximum(best[:, None], part)
+        choices.append(np.argmin(worst, axis=0))
+        best = worst.min(axis=0)
+    cuts = [n]
+    for choice in reversed(choices):
+        cuts.append(int(choice[cuts[-1]]))
+    return np.array([0, *reversed(cuts)])
+
+
+def imbalance(load, cuts):
+    """Load of the busiest rank over the mean of all; 1 where there is no load at all."""
+    parts = np.add.reduceat(np.asarray(load, float), cuts[:-1])
+    return float(parts.max() / parts.mean()) if parts.sum() > 0.0 else 1.0

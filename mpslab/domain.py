@@ -1,0 +1,284 @@
+"""Who owns what: slabs among ranks, ghosts, migration, sums over all ranks.
+
+A rank owns a contiguous run of whole slabs, the particles in them, and sees the particles of the
+slab on either side, its ghosts.  A slab is two influence radii wide, so that the neighbours of an
+owned particle's neighbours are all there: what a model computes for a ghost next to the border is
+what its owner computes, bit by bit, and models need not know about ranks.
+
+One process is a communicator of size one, and runs the same code.  This is the only module that
+knows of MPI.
+"""
+
+import os
+import time
+from dataclasses import fields
+
+import numpy as np
+
+from mpslab import balance
+from mpslab.particles import ParticleSet
+
+# Cost of a particle outside the water, as a share of that of one in it.
+SOLID = 0.3
+# Set by the launchers of MPICH and of Open MPI.
+LAUNCHED = ("PMI_SIZE", "PMIX_RANK", "OMPI_COMM_WORLD_SIZE")
+
+
+class Alone:
+    """The communicator of a process without others."""
+
+    rank, size = 0, 1
+
+    def allgather(self, item):
+        """What all ranks give, a list."""
+        return [item]
+
+    def bcast(self, item):
+        """What rank 0 gives."""
+        return item
+
+    def Iallreduce(self, give, take):
+        """Sum over the ranks; the request is done at once."""
+        take[:] = give
+        return self
+
+    def Test(self):
+        """Whether a request is done."""
+        return True
+
+
+def world():
+    """The communicator of all ranks: that of MPI under mpiexec, else `Alone`."""
+    if not any(name in os.environ for name in LAUNCHED):
+        return Alone()
+    from mpi4py import MPI
+
+    return MPI.COMM_WORLD
+
+
+def on_root(comm, act):
+    """Result of `act` on rank 0, None elsewhere; an error there is raised on every rank."""
+    result = error = None
+    if comm.rank == 0:
+        try:
+            result = act()
+        except Exception as found:
+            error = found
+    error = comm.bcast(error)
+    if error is not None:
+        raise error
+    return result
+
+
+class Domain:
+    """The part of the tank that a rank owns.
+
+    Parameters
+    ----------
+    slabs : mpslab.slabs.Slabs
+    comm : communicator, optional
+        That of `world` unless given.
+
+    Attributes
+    ----------
+    rank, size : int
+    cuts : (size + 1,) int
+        Rank k owns the slabs ``cuts[k]`` to ``cuts[k + 1] - 1``.
+    slab : (n,) int32
+        Slab of each particle, where `share_out` found it.
+    owned : (n,) bool
+        False for ghosts.
+    waited : float [s]
+        CPU time spent in communication and in waiting for it.
+    migrated : int
+        Particles that came here from other ranks.
+    """
+
+    def __init__(self, slabs, comm=None):
+        self.slabs = slabs
+        self.comm = comm or world()
+        self.rank, self.size = self.comm.rank, self.comm.size
+        self.cuts = balance.cut("static", np.zeros(slabs.count), self.size)
+        self.slab, self.owned = np.zeros(0, np.int32), np.zeros(0, bool)
+        self.waited, self.migrated = 0.0, 0
+        self._halo = []
+
+    @property
+    def begin(self):
+        """First slab of this rank."""
+        return int(self.cuts[self.rank])
+
+    @property
+    def end(self):
+        """Slab after the last one of this rank."""
+        return int(self.cuts[self.rank + 1])
+
+    def ghosts_of(self, rank):
+        """The slabs that a rank sees beside its own."""
+        return int(self.cuts[rank]) - 1, int(self.cuts[rank + 1])
+
+    def take_part(self, particles, method):
+        """This rank's share of all particles, cut by a method of :mod:`mpslab.balance`."""
+        self.slab = self.slabs.of(particles.position[:, 0])
+        self.cuts = balance.cut(method, self._weights(particles), self.size)
+        self.owned = (self.begin <= self.slab) & (self.slab < self.end)
+        return self.without_ghosts(particles)
+
+    def share_out(self, particles, *companions):
+        """Send particles to the ranks that own the slabs they are in, then get the ghosts.
+
+        Parameters
+        ----------
+        particles : ParticleSet, without ghosts
+        companions : (n, ...) arrays that go with them
+
+        Returns
+        -------
+        particles : ParticleSet in the order of gid, ghosts among them
+        companions : list of arrays
+        """
+        if self.size == 1:
+            self.slab = self.slabs.of(particles.position[:, 0])
+            self.owned = np.ones(len(particles), bool)
+            return particles, companions
+        arrays = self._with_ghosts(self._migrate([*arrays_of(particles), *companions]))
+        count = len(fields(ParticleSet))
+        return ParticleSet(*arrays[:count]), arrays[count:]
+
+    def without_ghosts(self, particles):
+        """The particles that this rank owns."""
+        return particles if self.owned.all() else self.keep(particles, self.owned)
+
+    def keep(self, particles, mask):
+        """The particles of a mask."""
+        self.slab, self.owned = self.slab[mask], self.owned[mask]
+        return particles.take(mask)
+
+    def _migrate(self, arrays):
+        owner = np.searchsorted(self.cuts, self._slab_of(arrays), side="right") - 1
+        leave = [np.flatnonzero(owner == r) if r != self.rank else [] for r in range(self.size)]
+        come = self._exchange(arrays, leave)
+        stay = owner == self.rank
+        self.migrated += sum(len(c[0]) for c in come)
+        return _merged([[a[stay] for a in arrays], *come]) if come or not stay.all() else arrays
+
+    def _with_ghosts(self, arrays):
+        slab = self._slab_of(arrays)
+        send = [[]] * self.size
+        for r in self._beside():
+            send[r] = np.flatnonzero(np.isin(slab, self.ghosts_of(r)))
+        arrays = _merged([arrays, *self._exchange(arrays, send)])
+        self.slab = slab = self._slab_of(arrays)
+        self.owned = (self.begin <= slab) & (slab < self.end)
+        self._halo = []
+        for r in self._beside():
+            give = np.flatnonzero(self.owned & np.isin(slab, self.ghosts_of(r)))
+            take = np.flatnonzero((self.cuts[r] <= slab) & (slab < self.cuts[r + 1]))
+            self._halo.append((r, give, take))
+        return arrays
+
+    def _beside(self):
+        """The ranks that own the slabs on either side."""
+        return [r for r in (self.rank - 1, self.rank + 1) if 0 <= r < self.size]
+
+    def _slab_of(self, arrays):
+        return self.slabs.of(arrays[POSITION][:, 0])
+
+    def _exchange(self, arrays, rows):
+        """Send rows[r] of the arrays to each rank r; what comes in, an entry a rank that sends."""
+        kind = np.dtype([(str(k), a.dtype, a.shape[1:]) for k, a in enumerate(arrays)])
+        began = time.process_time()
+        counts = self.comm.alltoall([len(r) for r in rows])
+        requests, sent, came = [], [], []
+        for r in range(self.size):
+            if counts[r]:
+                came.append(np.empty(counts[r], kind))
+                requests.append(self.comm.Irecv(came[-1].view(np.uint8), r))
+            if len(rows[r]):
+                packed = np.empty(len(rows[r]), kind)
+                for k, a in enumerate(arrays):
+                    packed[str(k)] = a[rows[r]]
+                sent.append(packed)
+                requests.append(self.comm.Isend(packed.view(np.uint8), r))
+        self._wait(requests, began)
+        return [[np.ascontiguousarray(c[name]) for name in kind.names] for c in came]
+
+    def refresh(self, *arrays):
+        """Give the ghosts' rows of (n, ...) arrays the values of their owners, in place."""
+        began = time.process_time()
+        requests, sent, came = [], [], []
+        for r, give, take in self._halo:
+            for a in arrays:
+                came.append((a, take, np.empty((len(take), *a.shape[1:]), a.dtype)))
+                requests.append(self.comm.Irecv(came[-1][2], r))
+                sent.append(a[give])
+                requests.append(self.comm.Isend(sent[-1], r))
+        self._wait(requests, began)
+        for a, take, values in came:
+            a[take] = values
+
+    def refresh_rows(self, x, first):
+        """As `refresh` for the rows of the pressure equation; first[s] is the first of slab s."""
+        began, requests = time.process_time(), []
+        for r in self._beside():
+            left = r < self.rank
+            mine, theirs = (self.begin, self.begin - 1) if left else (self.end - 1, self.end)
+            requests.append(self.comm.Irecv(x[first[theirs] : first[theirs + 1]], r))
+            requests.append(self.comm.Isend(x[first[mine] : first[mine + 1]], r))
+        self._wait(requests, began)
+
+    def _wait(self, requests, began):
+        for request in requests:
+            while not request.Test():
+                os.sched_yield()  # where ranks share a core, the other one has work to do
+        self.waited += time.process_time() - began
+
+    def add(self, by_slab):
+        """Sum over all slabs of the sums (slabs,) that their owners give, in the order of slabs."""
+        return sum(self.collect(by_slab).tolist())
+
+    def collect(self, by_slab):
+        """Values (slabs,) of all slabs, from those that each rank gives for its own, else 0."""
+        began, total = time.process_time(), np.empty_like(by_slab)
+        self._wait([self.comm.Iallreduce(by_slab, total)], began)
+        return total
+
+    def total(self, values):
+        """Sum of (n,) values over the particles of all ranks, slab by slab."""
+        return self.add(np.bincount(self.slab, values, minlength=self.slabs.count))
+
+    def from_all(self, item):
+        """What each rank gives, a list in the order of ranks, the same on all of them."""
+        began = time.process_time()
+        items = self.comm.allgather(item)
+        self.waited += time.process_time() - began
+        return items
+
+    def gather(self, particles):
+        """The particles of all ranks in the order of gid on rank 0, None elsewhere."""
+        if self.size == 1:
+            return particles
+        arrays = arrays_of(particles)
+        everything = np.arange(len(particles)) if self.rank else []
+        come = self._exchange(arrays, [everything, *[[]] * (self.size - 1)])
+        return ParticleSet(*_merged([arrays, *come])) if self.rank == 0 else None
+
+    def _weights(self, particles):
+        """Work that the particles make in each slab (slabs,)."""
+        weight = np.where(particles.fluid, 1.0, SOLID)
+        return np.bincount(self.slab, weight, minlength=self.slabs.count)
+
+
+POSITION = [f.name for f in fields(ParticleSet)].index("position")
+
+
+def arrays_of(particles):
+    """The arrays of a ParticleSet, in the order of its fields."""
+    return [getattr(particles, f.name) for f in fields(particles)]
+
+
+def _merged(parts):
+    """Lists of arrays put together, sorted by the first of them: gid."""
+    together = [np.concatenate(column) for column in zip(*parts, strict=True)]
+    order = np.argsort(together[0], kind="stable")
+    return [a[order] for a in together]

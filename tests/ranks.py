@@ -1,0 +1,92 @@
+"""Programs of the tests on several ranks: `start` runs this file under mpiexec."""
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from mpslab import launch
+
+TIMEOUT = 120.0  # seconds; a deadlock ends here
+ROOT = Path(__file__).parent.parent
+
+
+def environment():
+    """That of this process, with the package under test first on the path."""
+    return {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), str(ROOT / "tests")])}
+
+
+def start(program, ranks, *arguments):
+    """Output of rank 0 of a function below on so many ranks, read as JSON."""
+    line = launch.command(ranks, __file__, program, *(json.dumps(a) for a in arguments))
+    done = subprocess.run(
+        line, capture_output=True, text=True, timeout=TIMEOUT, env=environment(), cwd=ROOT
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    return json.loads(done.stdout)
+
+
+def digest(particles):
+    """The bytes of all arrays, each as a short text."""
+    return {
+        name: hashlib.sha256(array.tobytes()).hexdigest()[:12]
+        for name, array in vars(particles).items()
+    }
+
+
+def steps(changes, count, dt):
+    """Some steps of a small tank: bytes of the particles and iterations of the solver."""
+    from tanks import flow_of, make_case
+
+    from mpslab.step import advance
+
+    flow = flow_of(make_case(changes))
+    iterations = [advance(flow, dt).iterations for _ in range(count)]
+    everything = flow.domain.gather(flow.particles)
+    if everything is not None:
+        return {"iterations": iterations, **digest(everything)}
+
+
+def sums():
+    """Sums and extremes over all ranks of a tank whose particles are numbered."""
+    from tanks import flow_of, make_case
+
+    flow = flow_of(make_case({"scheme.solver": "scg"}))
+    gid, domain = flow.particles.gid, flow.domain
+    return {
+        "total": domain.total(gid * 0.1),
+        "sizes": domain.from_all(len(gid)),
+        "cuts": domain.cuts.tolist(),
+    }
+
+
+def crossing(places):
+    """Ranks on which particles stand that moved across several slabs at once, and their ghosts."""
+    import numpy as np
+    from tanks import flow_of, make_case
+
+    flow = flow_of(make_case({"scheme.solver": "scg"}))
+    domain, before = flow.domain, flow.particles
+    for number, x in places:
+        before.position[before.gid == number, 0] = x
+    after, (companion,) = domain.share_out(before, before.gid * 2.0)
+    assert np.all(np.diff(after.gid) > 0)
+    assert np.array_equal(companion, after.gid * 2.0)
+    after.pressure[:] = np.where(domain.owned, after.gid, -1.0)
+    domain.refresh(after.pressure)
+    assert np.array_equal(after.pressure, after.gid)
+    mine = [n for n, _ in places if n in after.gid[domain.owned]]
+    slabs = sorted(set(domain.slab.tolist()))
+    everyone = domain.from_all((mine, slabs, domain.begin, domain.end))
+    total = domain.from_all(int(domain.owned.sum()))
+    return {"ranks": everyone, "total": sum(total)}
+
+
+if __name__ == "__main__":
+    result = globals()[sys.argv[1]](*(json.loads(a) for a in sys.argv[2:]))
+    from mpslab.domain import world
+
+    if world().rank == 0:
+        print(json.dumps(result))
