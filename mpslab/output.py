@@ -23,6 +23,8 @@ STEP_COLUMNS = {
     "kinetic_energy": "kinetic_energy [J]",
     "potential_energy": "potential_energy [J]",
     "volume": "volume [m3]",
+    "piston_force": "piston_force [N]",
+    "piston_work": "piston_work [J]",
     "lost": "lost",
 }
 DECOMPOSITION_COLUMNS = {

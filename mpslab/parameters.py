@@ -138,11 +138,14 @@ class Scheme:
 
     recipe: str = key("set of models that fills in what is not set here", "standard")
     gradient: str = key("pressure gradient", "corrected", family="gradients")
-    source: str = key("source of the Poisson equation", "corrected", family="sources")
+    source: str = key("source of the Poisson equation", "adjoint", family="sources")
     laplacian: str = key("Laplacian of pressure", "standard", family="laplacians")
     solver: str = key("solver of the Poisson equation", "iccg", family="solvers")
     stabiliser: tuple = key(
-        "what keeps particles apart", ("shifting", "ds"), kind="texts", family="stabilisers"
+        "what keeps particles apart",
+        ("corrected_shifting", "ds"),
+        kind="texts",
+        family="stabilisers",
     )
     projection: str = key(
         "where the pressure acts: at the predicted positions (as in MPS), or those of the start",
@@ -167,12 +170,17 @@ class Scheme:
     laplacian_radius: float = key("radius of the Laplacian", 2.1, unit="spacings", low=1.5, high=6)
     relaxation: float = key("relaxation factor of the source 'density'", 0.2, above=0, high=1)
     gamma: float = key(
-        "weight of the density error in the sources 'mixed' and 'corrected'", 0.01, low=0, high=1
+        "weight of the density error in the sources 'mixed', 'corrected' and 'adjoint'",
+        0.005,
+        low=0,
+        high=1,
     )
     surface_threshold: float = key(
         "n/n0 below which a particle is free surface, where it is marked", 0.97, above=0, high=1
     )
-    shifting_strength: float = key("strength of 'shifting'", 0.2, low=0, high=1)
+    shifting_strength: float = key(
+        "strength of 'shifting' and 'corrected_shifting'", 0.25, low=0, high=1
+    )
     ds_distance: float = key("distance kept by 'ds'", 0.9, unit="spacings", above=0, high=1)
     collision_distance: float = key(
         "distance kept by 'collision'", 0.5, unit="spacings", above=0, high=1

@@ -170,10 +170,12 @@ class Record:
         kinds = ["U16" if name == "dt_limit" else float for name in names]
         return np.array(rows, dtype=list(zip(names, kinds, strict=True)))
 
-    def measures(self):
-        """Energies, volume and largest speed at the present time, for a row of the steps."""
+    def measures(self, before):
+        """What the water holds now and what the piston did since `before` [s], for a row."""
         p, stencil, fluid = self.flow.particles, self.flow.stencil, self.case.fluid
         total = self.flow.domain.total
+        force = diagnostics.piston_force(p, stencil, total)
+        stroke = self.flow.piston.face(self.flow.time) - self.flow.piston.face(before)
         return {
             "max_speed": max(self.flow.domain.from_all(diagnostics.max_speed(p))),
             "kinetic_energy": diagnostics.kinetic_energy(p, stencil, fluid.density, total),
@@ -181,4 +183,6 @@ class Record:
                 p, stencil, fluid.density, fluid.gravity, total
             ),
             "volume": diagnostics.volume(p, stencil, total),
+            "piston_force": force,
+            "piston_work": force * stroke,
         }

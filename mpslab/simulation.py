@@ -183,7 +183,7 @@ class Simulation:
         self._record.add_step(
             step=self.step, time=self.time, dt=self.dt, dt_limit=limit,
             iterations=report.iterations, residual=report.residual, lost=self.lost,
-            seconds=clock.perf_counter() - began, **self._record.measures(),
+            seconds=clock.perf_counter() - began, **self._record.measures(before),
         )  # fmt: skip
         self._write_due(before)
         if self.domain.size > 1 and self.step % self.case.parallel.rebalance_every == 0:

@@ -5,7 +5,7 @@ from types import ModuleType
 
 import numpy as np
 
-from mpslab import geometry, plugins, pressure, surface, walls
+from mpslab import correction, geometry, plugins, pressure, surface, walls
 from mpslab.domain import Domain
 from mpslab.kernels import density, viscosity
 from mpslab.neighbors import NeighborList
@@ -31,6 +31,8 @@ class Flow:
     domain : Domain
     neighbors : NeighborList
         Where the pressure acted last.
+    correction : (n, 6) float64 or None
+        Matrices of `mpslab.correction` there, where a model needs them.
     time : float [s]
     """
 
@@ -47,12 +49,19 @@ class Flow:
     stabilisers: tuple
     neighbors: NeighborList = field(default_factory=NeighborList)
     stopwatch: Stopwatch = field(default_factory=Stopwatch)
+    correction: np.ndarray | None = None
     time: float = 0.0
 
     @property
     def extrapolates(self):
         """Whether the walls take their pressure from the water in front of them."""
         return self.case.scheme.walls == "extrapolated"
+
+    @property
+    def needs_correction(self):
+        """Whether a model works with the correction matrices."""
+        models = (self.gradient, self.source, *self.stabilisers)
+        return any(getattr(model, "NEEDS_CORRECTION", False) for model in models)
 
 
 def make_flow(case, particles, piston, width, comm=None):
@@ -116,6 +125,8 @@ def advance(flow, dt):
     with watch.phase("neighbours"):
         _find_neighbors(flow)
     with watch.phase("operators"):
+        if flow.needs_correction:
+            flow.correction = correction.matrices(particles, flow.neighbors, flow.stencil)
         _add_viscosity(flow, dt)
         _stabilise(flow, "predicted", particles.position, dt)
         graded = _find_surface(flow)
@@ -196,8 +207,8 @@ def _assemble(flow, graded, pull, dt):
         n = surface.filled_density(n, graded, flow.stencil)
     right = np.empty(len(particles))
     flow.source.source(
-        particles.position, velocity, n, neighbors.indptr, neighbors.indices, flow.stencil, dt,
-        flow.case.scheme, right,
+        particles.position, velocity, particles.kind, n, neighbors.indptr, neighbors.indices,
+        flow.stencil, flow.correction, dt, flow.case.scheme, right,
     )  # fmt: skip
     if flow.extrapolates:
         right += walls.flux(particles, neighbors, stencil, terms, pull)
@@ -227,7 +238,7 @@ def _correct(flow, start, dt):
     change = np.zeros_like(particles.velocity)
     flow.gradient.gradient(
         particles.position, particles.pressure, kind, neighbors.indptr, neighbors.indices,
-        flow.stencil, change,
+        flow.stencil, flow.correction, change,
     )  # fmt: skip
     particles.velocity -= (dt / flow.case.fluid.density) * change
     fluid = particles.fluid
@@ -243,6 +254,8 @@ def _stabilise(flow, stage, before, dt):
     particles, models = flow.particles, [m for m in flow.stabilisers if stage == m.STAGE]
     for model in models:
         flow.domain.refresh(particles.position, particles.velocity)
-        model.stabilise(particles, before, flow.neighbors, flow.stencil, dt, flow.case.scheme)
+        model.stabilise(
+            particles, before, flow.neighbors, flow.stencil, flow.correction, dt, flow.case.scheme
+        )
     if models and stage == "predicted":
         flow.domain.refresh(particles.position, particles.velocity)

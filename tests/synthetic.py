@@ -106,6 +106,8 @@ def _write_tables(folder):
             kinetic_energy=time**2 / 100,
             potential_energy=3 + 0.012 * time**2,
             volume=0.024,
+            piston_force=30.0 + 9810.0 * eta,
+            piston_work=1e-3 * eta,
             lost=0,
         )
     folder.close()

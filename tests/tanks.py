@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 from scipy.spatial import cKDTree
 
-from mpslab import geometry
+from mpslab import correction, geometry
 from mpslab.cases import from_tables
 from mpslab.kernels import density
 from mpslab.neighbors import NeighborList
@@ -27,6 +27,7 @@ CLASSIC = {
     "scheme.projection": "predicted",
     "scheme.walls": "solved",
     "scheme.surface": "marked",
+    "scheme.stabiliser": ["shifting", "ds"],
 }
 
 
@@ -90,6 +91,11 @@ def neighbors_of(position, radius, width=0.0, active=None):
     return NeighborList().build(np.ascontiguousarray(position), radius, width, active)
 
 
+def matrices_of(position, kind, found, stencil):
+    """Correction matrices at positions."""
+    return correction.matrices(particles_at(position, kind), found, stencil)
+
+
 def closest(position):
     """Least distance of two points."""
     return cKDTree(position).query(position, k=2)[0][:, 1].min()
@@ -113,7 +119,7 @@ def particles_at(position, kind=0):
 def scheme(**changes):
     """The keys of a scheme that models read, with the values of the standard recipe."""
     values = {
-        "relaxation": 0.2, "gamma": 0.01, "shifting_strength": 0.1, "ds_distance": 0.9,
+        "relaxation": 0.2, "gamma": 0.005, "shifting_strength": 0.1, "ds_distance": 0.9,
         "collision_distance": 0.5, "restitution": 0.2,
     }  # fmt: skip
     return SimpleNamespace(**{**values, **changes})

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tanks import cloud, flow_of, make_case, neighbors_of, run
+from tanks import cloud, flow_of, make_case, matrices_of, neighbors_of, run
 
 from mpslab import plugins
 from mpslab.kernels import density, divergence, sparse
@@ -93,12 +93,13 @@ def test_gradients_do_not_depend_on_the_address(name):
     pressure = np.random.default_rng(5).uniform(size=500)
     kind = np.zeros(500, np.int8)
     found, stencil = neighbors_of(position, 2.1), make_stencil(3, 1.0, 2.1)
+    c = matrices_of(position, kind, found, stencil)
 
     def gradient(by):
         out = np.empty((500, 3))
         plugins.load("gradients", name).gradient(
             shifted(position, by), shifted(pressure, by), shifted(kind, by),
-            shifted(found.indptr, by), shifted(found.indices, by), stencil, out,
+            shifted(found.indptr, by), shifted(found.indices, by), stencil, c, out,
         )  # fmt: skip
         return out.tobytes()
 

@@ -7,12 +7,12 @@ import mpslab
 
 ROOT = Path(mpslab.__file__).parent
 FLOORS = {
-    6: "tank progress launch",
+    6: "tank progress measures launch",
     5: "simulation record watch output checkpoint vtkhdf snapshots overturning gauges pictures "
-    "preflight cases initial provenance diagnostics",
+    "preflight cases initial provenance diagnostics scatter",
     4: "step timestep",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
-    "conjugate_gradient piston geometry",
+    "conjugate_gradient piston geometry correction",
     2: "balance communicator domain rebalance",
     1: "particles neighbors stencil sparse slabs parameters keys plugins bed paddle waves breaking "
     "stopwatch files",

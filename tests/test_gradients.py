@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tanks import cloud, inside, lattice, neighbors_of
+from tanks import cloud, inside, lattice, matrices_of, neighbors_of
 
 from mpslab import plugins
 from mpslab.particles import DUMMY, FLUID, PISTON, PISTON_DUMMY, WALL
@@ -23,8 +23,9 @@ def apply(name, position, pressure, dim, radius=2.1, kind=None, width=0.0, reach
     found = neighbors_of(position, reach or radius, width)
     out = np.full(position.shape, np.nan)
     stencil = make_stencil(dim, 1.0, radius, width)
+    c = matrices_of(position, kind, found, stencil)
     MODELS[name].gradient(
-        position, pressure, kind, found.indptr, found.indices, stencil, out
+        position, pressure, kind, found.indptr, found.indices, stencil, c, out
     )  # fmt: skip
     return out
 

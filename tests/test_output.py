@@ -13,7 +13,7 @@ from mpslab.output import CsvTable, RunFolder
 
 STEPS_HEADER = (
     "step,time [s],dt [s],dt_limit,iterations,residual,seconds,max_speed [m/s],"
-    "kinetic_energy [J],potential_energy [J],volume [m3],lost"
+    "kinetic_energy [J],potential_energy [J],volume [m3],piston_force [N],piston_work [J],lost"
 )
 
 
@@ -31,6 +31,8 @@ def step_row(step):
         "kinetic_energy": 1 / 7,
         "potential_energy": -2.5,
         "volume": np.float64(0.1) * 3,
+        "piston_force": 12.5,
+        "piston_work": -1 / 3,
         "lost": 0,
     }
 

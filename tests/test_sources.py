@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tanks import cloud, inside, lattice, neighbors_of, scheme
+from tanks import cloud, inside, lattice, matrices_of, neighbors_of, scheme
 
 from mpslab import plugins
 from mpslab.kernels import density
@@ -18,12 +18,13 @@ def source(name, position, velocity, dim, radius=2.1, ratio=None, dt=DT, reach=N
     found = neighbors_of(position, reach or radius)
     n = np.empty(len(position))
     density.number_density(position, found.indptr, found.indices, stencil, n)
-    rest = stencil.relaxed if name == "corrected" else stencil.n0
+    rest = stencil.relaxed if name in ("adjoint", "corrected") else stencil.n0
     n[:] = n * rest / stencil.n0 if ratio is None else ratio * rest
-    out = np.full(len(position), np.nan)
+    out, kind = np.full(len(position), np.nan), np.zeros(len(position), np.int8)
+    c = matrices_of(position, kind, found, stencil)
     plugins.load("sources", name).source(
-        position, np.ascontiguousarray(velocity), n, found.indptr, found.indices, stencil, dt,
-        scheme(**changes), out,
+        position, np.ascontiguousarray(velocity), kind, n, found.indptr, found.indices, stencil,
+        c, dt, scheme(**changes), out,
     )  # fmt: skip
     return out
 
@@ -43,8 +44,8 @@ def squeeze(x):
     return -0.2 * x
 
 
-def test_four_models_are_there():
-    assert {"density", "hs", "ecs", "mixed"} <= set(NAMES)
+def test_six_models_are_there():
+    assert {"density", "hs", "ecs", "mixed", "corrected", "adjoint"} <= set(NAMES)
 
 
 @pytest.mark.parametrize("dim", [2, 3])
@@ -97,6 +98,21 @@ def test_corrected_divergence_is_exact_for_linear_velocities_in_any_arrangement(
     b = source("corrected", position, position @ matrix.T, 3, ratio=1.0, gamma=0.0)
     exact = np.isclose(b, -np.trace(matrix) / DT, rtol=1e-9)
     assert exact.mean() > 0.9  # the rest have too few neighbours for an inverse
+
+
+def test_adjoint_divergence_is_the_adjoint_of_the_corrected_gradient():
+    """sum p_i <div u>_i = -sum u_i . <grad p>_i for any pressures and velocities."""
+    position = cloud(3, 400, seed=3, jitter=0.2)
+    random = np.random.default_rng(4)
+    velocity, p = random.normal(size=position.shape), random.uniform(size=len(position))
+    found, stencil = neighbors_of(position, 2.1), make_stencil(3, 1.0, 2.1)
+    kind, out = np.zeros(len(p), np.int8), np.empty(position.shape)
+    c = matrices_of(position, kind, found, stencil)
+    plugins.load("gradients", "corrected").gradient(
+        position, p, kind, found.indptr, found.indices, stencil, c, out
+    )
+    divergence = -DT * source("adjoint", position, velocity, 3, ratio=1.0, gamma=0.0)
+    assert p @ divergence == pytest.approx(-np.sum(velocity * out), rel=1e-10)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tanks import cloud, inside, lattice, neighbors_of, particles_at, scheme
+from tanks import cloud, inside, lattice, matrices_of, neighbors_of, particles_at, scheme
 
 from mpslab import plugins
 from mpslab.particles import DUMMY, FLUID, PISTON, PISTON_DUMMY, WALL
@@ -19,7 +19,8 @@ def apply(name, particles, before=None, dim=3, reach=2.1, **changes):
     before = position if before is None else np.ascontiguousarray(before)
     found = neighbors_of(position, reach)
     stencil = make_stencil(dim, 1.0, 2.1)
-    MODELS[name].stabilise(particles, before, found, stencil, DT, scheme(**changes))
+    c = matrices_of(particles.position, particles.kind, found, stencil)
+    MODELS[name].stabilise(particles, before, found, stencil, c, DT, scheme(**changes))
     return particles.position - position, particles.velocity - velocity
 
 
@@ -46,8 +47,8 @@ def moved_from(particles, seed=6):
     return particles.position - 0.1 * np.random.default_rng(seed).normal(size=(len(particles), 3))
 
 
-def test_three_models_are_there():
-    assert {"collision", "shifting", "ds"} <= set(NAMES)
+def test_four_models_are_there():
+    assert {"collision", "shifting", "corrected_shifting", "ds"} <= set(NAMES)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -58,11 +59,13 @@ def test_stage_is_one_that_the_step_knows(name):
 @pytest.mark.parametrize("dim", [2, 3])
 @pytest.mark.parametrize("name", NAMES)
 def test_lattice_at_rest_stays_as_it_is(name, dim):
-    particles = particles_at(lattice(dim, 5))
-    particles.surface[:] = ~inside(particles.position, 4)
+    """Where the neighbours, too, have all of theirs."""
+    particles = particles_at(lattice(dim, 6))
+    particles.surface[:] = ~inside(particles.position, 5)
+    core = inside(particles.position, 1)
     move, change = apply(name, particles, dim=dim)
-    assert np.abs(move).max() < 1e-14
-    assert np.abs(change).max() < 1e-12
+    assert np.abs(move[core]).max() < 1e-14
+    assert np.abs(change[core]).max() < 1e-12
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -166,7 +169,7 @@ def test_ds_acts_across_a_periodic_boundary():
     particles = particles_at([[0.0, 0.1, 0.0], [0.0, 9.6, 0.0]])
     before = np.array([[0.0, 0.3, 0.0], [0.0, 9.3, 0.0]])
     found, stencil = neighbors_of(particles.position, 2.1, 10.0), make_stencil(3, 1.0, 2.1, 10.0)
-    MODELS["ds"].stabilise(particles, before, found, stencil, DT, scheme())
+    MODELS["ds"].stabilise(particles, before, found, stencil, None, DT, scheme())
     np.testing.assert_allclose(particles.position[:, 1], [0.3, 9.4], rtol=1e-12)
 
 
@@ -218,6 +221,38 @@ def test_shifting_follows_its_formula():
     n0 = make_stencil(3, 1.0, 2.1).n0
     expected = -0.1 / n0 * ((2.1 / 0.8 - 1.0) / 0.8 - 1.1)
     np.testing.assert_allclose(move[0], [expected, 0.0, 0.0], atol=1e-16)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_corrected_shifting_takes_back_its_share_of_a_displacement(dim):
+    """Of one particle, moved off its place in the lattice; its neighbours' matrices change, too."""
+    particles = particles_at(lattice(dim, 6))
+    middle = inside(particles.position, 0)
+    particles.position[middle, 0] = 1e-6
+    move, _ = apply("corrected_shifting", particles, dim=dim, shifting_strength=0.25)
+    np.testing.assert_allclose(move[middle], [[-0.25e-6, 0.0, 0.0]], rtol=0.1, atol=1e-12)
+
+
+def test_corrected_shifting_stills_the_force_of_a_constant_pressure():
+    """The conservative gradient of a constant pressure, inside a rim that stays where it is."""
+    particles = particles_at(cloud(3, 900, 7, jitter=0.1))
+    particles.surface[:] = ~inside(particles.position, 4.0)
+    core = inside(particles.position, 1.5)
+    stencil = make_stencil(3, 1.0, 2.1)
+
+    def force():
+        found, out = neighbors_of(particles.position, 2.1), np.empty((len(particles), 3))
+        c = matrices_of(particles.position, particles.kind, found, stencil)
+        plugins.load("gradients", "corrected").gradient(
+            particles.position, np.ones(len(particles)), particles.kind, found.indptr,
+            found.indices, stencil, c, out,
+        )  # fmt: skip
+        return np.sqrt(np.mean(out[core] ** 2))
+
+    before = force()
+    for _ in range(30):
+        apply("corrected_shifting", particles, shifting_strength=0.25)
+    assert force() < 0.2 * before
 
 
 def test_shifting_takes_particles_from_crowds_to_gaps():

@@ -34,6 +34,21 @@ def test_number_of_lattice_neighbours(dim, radius, neighbours, n0, lambda0):
     assert np.count_nonzero(r < radius) == neighbours
 
 
+@pytest.mark.parametrize(("dim", "radius"), [(2, 2.1), (3, 2.1), (3, 3.1)])
+def test_restoring_is_the_growth_of_the_lopsidedness_with_a_displacement(dim, radius):
+    """Against the sum itself, for a particle moved a little along x."""
+    small, places = 1e-7, lattice_offsets(dim, 6)
+
+    def lopsided(move):
+        offset = places - [move, 0.0, 0.0]
+        r = np.linalg.norm(offset, axis=1)
+        return np.sum(np.maximum(radius / r - 1.0, 0.0) / r**2 * offset[:, 0])
+
+    growth = (lopsided(small) - lopsided(-small)) / (2.0 * small)
+    assert make_stencil(dim, 1.0, radius).restoring == pytest.approx(growth, rel=1e-6)
+    assert make_stencil(dim, 0.5, radius).restoring == pytest.approx(4.0 * growth, rel=1e-6)
+
+
 def test_spacing_scales_lengths_and_leaves_the_number_density():
     unit, small = make_stencil(3, 1.0, 2.1), make_stencil(3, 0.002, 2.1)
     assert small.n0 == unit.n0

@@ -8,13 +8,13 @@ RECIPES = {
     # 2024, in MPS form), and particles that are kept in order, which its accuracy rests on.
     "standard": {
         "gradient": "corrected",
-        "source": "corrected",
+        "source": "adjoint",
         "projection": "start",
         "walls": "extrapolated",
         "surface": "graded",
         "laplacian": "standard",
         "solver": "iccg",
-        "stabiliser": ["shifting", "ds"],
+        "stabiliser": ["corrected_shifting", "ds"],
         "effective_radius": 2.1,
         "laplacian_radius": 2.1,
     },

@@ -10,7 +10,7 @@ EXACT_FOR_LINEAR = False
 
 def gradient(const double[:, ::1] position, const double[::1] pressure,
              const signed char[::1] kind, const int[::1] indptr, const int[::1] indices,
-             stencil, double[:, ::1] out):
+             stencil, correction, double[:, ::1] out):
     """<grad p>_i = (Ds/n0) sum_j ((p_i + p_j) - (p^_i + p^_j)) r_ij w / r^2.
 
     Equation (4) of the paper, with the square that its print lacks: the pair force is equal and

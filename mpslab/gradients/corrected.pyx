@@ -1,32 +1,24 @@
 """Conservative corrected pressure gradient (reverse kernel gradient correction)."""
-import numpy as np
-
-from mpslab.kernels.moments import correction_matrix
 from mpslab.kernels.pair cimport FLUID, distance, has_pressure, weight, wrap
 
 CONSERVES_MOMENTUM = True
 EXACT_FOR_LINEAR = False
-# Near the free surface the moment is one-sided and its inverse large: one layer would push the
-# next away.  There C = I, and the pair is that of p_i + p_j.
-LEAST_DETERMINANT = 0.6
+NEEDS_CORRECTION = True
 
 
 def gradient(const double[:, ::1] position, const double[::1] pressure,
              const signed char[::1] kind, const int[::1] indptr, const int[::1] indices,
-             stencil, double[:, ::1] out):
+             stencil, const double[:, ::1] c, double[:, ::1] out):
     """<grad p>_i = (Ds/n0) sum_j (p_i C_j + p_j C_i) r_ij w / r^2 (Zhang, Adams & Hu 2024).
 
-    C is the inverse moment matrix over all neighbours; walls take that of the water particle.
+    C is the correction matrix (`mpslab.correction`); walls take that of the water particle.
     The pair force is equal and opposite, but not central: linear momentum is conserved, angular
     momentum nearly.
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = stencil.dim / stencil.n0
-    cdef double[:, ::1] c = np.empty((pressure.shape[0], 6))
     cdef double dx, dy, dz, r, w, pi, pj, gx, gy, gz
     cdef Py_ssize_t i, k, j, m
-    correction_matrix(position, kind, indptr, indices, stencil, True,
-                      LEAST_DETERMINANT, c)
     with nogil:
         for i in range(indptr.shape[0] - 1):
             gx = gy = gz = 0.0

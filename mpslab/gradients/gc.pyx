@@ -11,7 +11,7 @@ LEAST_DETERMINANT = {2: 0.05, 3: 0.05}
 
 def gradient(const double[:, ::1] position, const double[::1] pressure,
              const signed char[::1] kind, const int[::1] indptr, const int[::1] indices,
-             stencil, double[:, ::1] out):
+             stencil, correction, double[:, ::1] out):
     """<grad p>_i = C_i (Ds/n0) sum_j (p_j - p_i) r_ij w / r^2 (Khayyer & Gotoh 2011).
 
     C_i is the inverse moment matrix over the same neighbours.  Forces are not equal and

@@ -10,7 +10,7 @@ EXACT_FOR_LINEAR = False
 
 def gradient(const double[:, ::1] position, const double[::1] pressure,
              const signed char[::1] kind, const int[::1] indptr, const int[::1] indices,
-             stencil, double[:, ::1] out):
+             stencil, correction, double[:, ::1] out):
     """<grad p>_i = (Ds/n0) sum_j (p_j - p^_i) r_ij w / r^2 (equations 2 and 3 of the paper)."""
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = stencil.dim / stencil.n0

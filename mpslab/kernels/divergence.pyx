@@ -1,5 +1,5 @@
 """Rates of compression, for the right-hand sides of the pressure equation."""
-from mpslab.kernels.pair cimport distance, weight, wrap
+from mpslab.kernels.pair cimport FLUID, distance, weight, wrap
 
 
 def divergence(const double[:, ::1] position, const double[:, ::1] velocity,
@@ -72,5 +72,40 @@ def corrected_divergence(const double[:, ::1] position, const double[:, ::1] vel
                 total += (ux * (c[i, 0] * dx + c[i, 3] * dy + c[i, 4] * dz)
                           + uy * (c[i, 3] * dx + c[i, 1] * dy + c[i, 5] * dz)
                           + uz * (c[i, 4] * dx + c[i, 5] * dy + c[i, 2] * dz)
+                          ) * weight(r, radius) / (r * r)
+            out[i] = factor * total
+
+
+def adjoint_divergence(const double[:, ::1] position, const double[:, ::1] velocity,
+                       const signed char[::1] kind, const int[::1] indptr,
+                       const int[::1] indices, stencil, const double[:, ::1] c,
+                       double[::1] out):
+    """<div u>_i = (Ds/n0) sum_j u_ij . C_j r_ij w / r^2: adjoint of the conservative gradient [1/s].
+
+    sum_i p_i <div u>_i = -sum_i u_i . <grad p>_i with (Ds/n0) sum_j (p_i C_j + p_j C_i) r_ij w/r^2,
+    where all particles are fluid.
+
+    c : (n, 6) matrices C of the fluid particles; solids take that of their neighbour
+    """
+    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
+    cdef double factor = stencil.dim / stencil.n0
+    cdef double dx, dy, dz, r, ux, uy, uz, total
+    cdef Py_ssize_t i, k, j, m
+    with nogil:
+        for i in range(indptr.shape[0] - 1):
+            total = 0.0
+            for k in range(indptr[i], indptr[i + 1]):
+                j = indices[k]
+                m = j if kind[j] == FLUID else i
+                dx = position[j, 0] - position[i, 0]
+                dy = wrap(position[j, 1] - position[i, 1], width)
+                dz = position[j, 2] - position[i, 2]
+                ux = velocity[j, 0] - velocity[i, 0]
+                uy = velocity[j, 1] - velocity[i, 1]
+                uz = velocity[j, 2] - velocity[i, 2]
+                r = distance(dx, dy, dz, floor)
+                total += (ux * (c[m, 0] * dx + c[m, 3] * dy + c[m, 4] * dz)
+                          + uy * (c[m, 3] * dx + c[m, 1] * dy + c[m, 5] * dz)
+                          + uz * (c[m, 4] * dx + c[m, 5] * dy + c[m, 2] * dz)
                           ) * weight(r, radius) / (r * r)
             out[i] = factor * total

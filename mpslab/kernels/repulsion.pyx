@@ -1,20 +1,23 @@
 """Displacements that keep particles apart: shifting, dynamic stabilisation, collision."""
-from libc.math cimport fabs, sqrt
+from libc.math cimport sqrt
 
 from mpslab.kernels.pair cimport FLUID, distance, has_pressure, weight, wrap
 
 
 def shifting(const double[:, ::1] position, const signed char[::1] kind,
              const unsigned char[::1] surface, const int[::1] indptr, const int[::1] indices,
-             stencil, double strength, double longest, double[:, ::1] out):
-    """dr_i = -A d0^2 sum_j (w/(n0 r^2)) r_ij, at most `longest` (after Lind et al. 2012) [m].
+             stencil, const double[:, ::1] c, double factor, double longest,
+             double[:, ::1] out):
+    """dr_i = -factor sum_j (C_i + C_j)/2 r_ij w/r^2, at most `longest` [m].
 
     Zero for free-surface particles and for those that have one as a neighbour.
+
+    c : (n, 6) matrices C of the fluid particles; solids take that of their neighbour
+    factor : [m2]
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
-    cdef double factor = -strength * stencil.spacing ** 2 / stencil.n0
     cdef double dx, dy, dz, r, w, sx, sy, sz, length
-    cdef Py_ssize_t i, k, j
+    cdef Py_ssize_t i, k, j, m
     cdef int near_surface
     with nogil:
         for i in range(indptr.shape[0] - 1):
@@ -29,15 +32,19 @@ def shifting(const double[:, ::1] position, const signed char[::1] kind,
                 dy = wrap(position[j, 1] - position[i, 1], width)
                 dz = position[j, 2] - position[i, 2]
                 r = distance(dx, dy, dz, floor)
-                w = weight(r, radius) / (r * r)
+                w = 0.5 * weight(r, radius) / (r * r)
                 near_surface += (surface[j] != 0) & (r < radius)
-                sx += w * dx
-                sy += w * dy
-                sz += w * dz
+                m = j if kind[j] == FLUID else i
+                sx += w * ((c[i, 0] + c[m, 0]) * dx + (c[i, 3] + c[m, 3]) * dy
+                           + (c[i, 4] + c[m, 4]) * dz)
+                sy += w * ((c[i, 3] + c[m, 3]) * dx + (c[i, 1] + c[m, 1]) * dy
+                           + (c[i, 5] + c[m, 5]) * dz)
+                sz += w * ((c[i, 4] + c[m, 4]) * dx + (c[i, 5] + c[m, 5]) * dy
+                           + (c[i, 2] + c[m, 2]) * dz)
             if near_surface:
                 continue
-            length = fabs(factor) * sqrt(sx * sx + sy * sy + sz * sz)
-            w = factor * (longest / length if length > longest else 1.0)
+            length = factor * sqrt(sx * sx + sy * sy + sz * sz)
+            w = -factor * (longest / length if length > longest else 1.0)
             out[i, 0] = w * sx
             out[i, 1] = w * sy
             out[i, 2] = w * sz

@@ -8,13 +8,15 @@ from mpslab.kernels.moments import correction_matrix
 LEAST_DETERMINANT = 0.05
 
 
-def source(position, velocity, number_density, indptr, indices, stencil, dt, scheme, out):
+def source(
+    position, velocity, kind, number_density, indptr, indices, stencil, correction, dt, scheme, out
+):
     """b_i = -<div u*>_i/dt + gamma (n_i - n_r)/(n_r dt^2) [1/s2].
 
     <div u> with the correction matrix of Khayyer & Gotoh (2011), over all neighbours; n_r is the
     number density of relaxed water (`Stencil.relaxed`).
     """
-    c, kind = np.empty((len(position), 6)), np.zeros(len(position), np.int8)
+    c = np.empty((len(position), 6))
     correction_matrix(position, kind, indptr, indices, stencil, True, LEAST_DETERMINANT, c)
     corrected_divergence(position, velocity, indptr, indices, stencil, c, out)
     out /= -dt

@@ -5,7 +5,9 @@ import numpy as np
 from mpslab.kernels.divergence import density_rate
 
 
-def source(position, velocity, number_density, indptr, indices, stencil, dt, scheme, out):
+def source(
+    position, velocity, kind, number_density, indptr, indices, stencil, correction, dt, scheme, out
+):
     """b_i = HS + |e_i| (Dn/Dt)_i/(n0 dt) + |dt (Dn/Dt)_i/n0| e_i/dt^2 [1/s2].
 
     e_i = (n_i - n0)/n0 (Khayyer & Gotoh 2011).  The compensating terms, too, are evaluated at

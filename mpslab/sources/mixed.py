@@ -3,7 +3,9 @@
 from mpslab.kernels.divergence import divergence
 
 
-def source(position, velocity, number_density, indptr, indices, stencil, dt, scheme, out):
+def source(
+    position, velocity, kind, number_density, indptr, indices, stencil, correction, dt, scheme, out
+):
     """b_i = -<div u*>_i/dt + gamma (n_i - n0)/(n0 dt^2) (Tanaka & Masunaga 2010) [1/s2]."""
     divergence(position, velocity, indptr, indices, stencil, out)
     out /= -dt

@@ -2,9 +2,10 @@
 
 Each module has one function::
 
-    stabilise(particles, before, neighbors, stencil, dt, scheme)
+    stabilise(particles, before, neighbors, stencil, correction, dt, scheme)
 
 which changes ``particles.position`` and ``particles.velocity`` in place, and a word ``STAGE``:
 "predicted" (before the pressure is solved) or "corrected" (at the end of the step, when
-``before`` holds the predicted positions, (n, 3) [m]).
+``before`` holds the predicted positions, (n, 3) [m]).  ``correction`` holds the matrices of
+mpslab.correction, (n, 6), None without ``NEEDS_CORRECTION``.
 """

@@ -7,7 +7,7 @@ from mpslab.kernels import repulsion
 STAGE = "predicted"
 
 
-def stabilise(particles, before, neighbors, stencil, dt, scheme):
+def stabilise(particles, before, neighbors, stencil, correction, dt, scheme):
     """Let pairs below ``collision_distance`` bounce (Shibata, Murotani & Koshizuka 2014)."""
     change = np.empty_like(particles.velocity)
     repulsion.collision(

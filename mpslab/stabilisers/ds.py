@@ -7,7 +7,7 @@ from mpslab.kernels import repulsion
 STAGE = "corrected"
 
 
-def stabilise(particles, before, neighbors, stencil, dt, scheme):
+def stabilise(particles, before, neighbors, stencil, correction, dt, scheme):
     """Remove the overlap of pairs below ``ds_distance`` (after Tsuruta et al. 2013)."""
     move = np.empty_like(particles.position)
     repulsion.overlap(

@@ -2,17 +2,23 @@
 
 import numpy as np
 
+from mpslab.correction import identity
 from mpslab.kernels import repulsion
 
 STAGE = "corrected"
 LONGEST = 0.05  # of a particle spacing, in one step
 
 
-def stabilise(particles, before, neighbors, stencil, dt, scheme):
-    """Shift the particles inside the water; velocities stay (after Lind et al. 2012)."""
+def stabilise(particles, before, neighbors, stencil, correction, dt, scheme):
+    """dr_i = -(A d0^2/n0) sum_j r_ij w/r^2 inside the water (after Lind et al. 2012) [m].
+
+    Velocities stay.
+    """
     move = np.empty_like(particles.position)
+    factor = scheme.shifting_strength * stencil.spacing**2 / stencil.n0
     repulsion.shifting(
         particles.position, particles.kind, particles.surface, neighbors.indptr,
-        neighbors.indices, stencil, scheme.shifting_strength, LONGEST * stencil.spacing, move,
+        neighbors.indices, stencil, identity(len(particles)), factor,
+        LONGEST * stencil.spacing, move,
     )  # fmt: skip
     particles.position += move

@@ -1,0 +1,20 @@
+"""Mixed source with the divergence that is adjoint to the conservative corrected gradient."""
+
+from mpslab.kernels.divergence import adjoint_divergence
+
+NEEDS_CORRECTION = True
+
+
+def source(
+    position, velocity, kind, number_density, indptr, indices, stencil, correction, dt, scheme, out
+):
+    """b_i = -<div u*>_i/dt + gamma (n_i - n_r)/(n_r dt^2) [1/s2].
+
+    <div u>_i = (Ds/n0) sum_j u_ij . C_j r_ij w/r^2.  The pressure forces of the gradient
+    "corrected" do the work sum_i p_i <div u>_i of just this divergence: where it is zero, they
+    neither give energy to the water nor take any.  n_r is the number density of relaxed water
+    (`Stencil.relaxed`).
+    """
+    adjoint_divergence(position, velocity, kind, indptr, indices, stencil, correction, out)
+    out /= -dt
+    out += (scheme.gamma / dt**2) * (number_density / stencil.relaxed - 1.0)
