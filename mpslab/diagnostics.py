@@ -1,4 +1,7 @@
-"""Integral measures of the water: energy, volume, speed."""
+"""Integral measures of the water: energy, volume, speed.
+
+Sums take `total`, which adds (n,) values of the particles: over all ranks it is that of the domain.
+"""
 
 import numpy as np
 
@@ -19,29 +22,31 @@ def max_speed(particles):
     return float(np.sqrt(np.einsum("ij,ij->i", velocity, velocity).max()))
 
 
-def kinetic_energy(particles, stencil, density):
+def kinetic_energy(particles, stencil, density, total=np.sum):
     """Sum of m u^2 / 2 over the fluid; in 2-D for a slice 1 m wide [J]."""
-    velocity = particles.velocity[particles.fluid]
+    square = np.einsum("ij,ij->i", particles.velocity, particles.velocity)
     mass = density * particle_volume(stencil)
-    return 0.5 * mass * float(np.einsum("ij,ij->", velocity, velocity))
+    return 0.5 * mass * float(total(np.where(particles.fluid, square, 0.0)))
 
 
-def potential_energy(particles, stencil, density, gravity):
+def potential_energy(particles, stencil, density, gravity, total=np.sum):
     """Sum of m g z over the fluid; in 2-D for a slice 1 m wide [J]."""
     mass = density * particle_volume(stencil)
-    return mass * gravity * float(particles.position[particles.fluid, 2].sum())
+    height = np.where(particles.fluid, particles.position[:, 2], 0.0)
+    return mass * gravity * float(total(height))
 
 
-def piston_force(particles, stencil):
+def piston_force(particles, stencil, total=np.sum):
     """Force of the piston on the water along x; in 2-D on a slice 1 m wide [N].
 
     The pressure of the piston's first layer, each particle for a face of d0^(Ds-1).
     """
     face = stencil.spacing ** (stencil.dim - 1)
-    return face * float(particles.pressure[particles.kind == PISTON].sum())
+    pressure = np.where(particles.kind == PISTON, particles.pressure, 0.0)
+    return face * float(total(pressure))
 
 
-def volume(particles, stencil):
+def volume(particles, stencil, total=np.sum):
     """Volume that the fluid takes up: a particle inside counts as n_r/n of its own [m3].
 
     n_r is the number density of relaxed water (`Stencil.relaxed`): in 3-D the lattice of the start
@@ -49,6 +54,6 @@ def volume(particles, stencil):
     full.
     """
     inside = particles.fluid & (particles.surface == 0) & (particles.number_density > 0.0)
-    share = float(np.sum(stencil.relaxed / particles.number_density[inside]))
-    surface = np.count_nonzero(particles.fluid) - np.count_nonzero(inside)
-    return particle_volume(stencil) * (share + surface)
+    share = np.where(particles.fluid, 1.0, 0.0)
+    share[inside] = stencil.relaxed / particles.number_density[inside]
+    return particle_volume(stencil) * float(total(share))

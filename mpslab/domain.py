@@ -15,36 +15,12 @@ from dataclasses import fields
 
 import numpy as np
 
-from mpslab import balance
+from mpslab import balance, rebalance
+from mpslab.communicator import Alone, finish, meet, on_root
 from mpslab.particles import ParticleSet
 
-# Cost of a particle outside the water, as a share of that of one in it.
-SOLID = 0.3
 # Set by the launchers of MPICH and of Open MPI.
 LAUNCHED = ("PMI_SIZE", "PMIX_RANK", "OMPI_COMM_WORLD_SIZE")
-
-
-class Alone:
-    """The communicator of a process without others."""
-
-    rank, size = 0, 1
-
-    def allgather(self, item):
-        """What all ranks give, a list."""
-        return [item]
-
-    def bcast(self, item):
-        """What rank 0 gives."""
-        return item
-
-    def Iallreduce(self, give, take):
-        """Sum over the ranks; the request is done at once."""
-        take[:] = give
-        return self
-
-    def Test(self):
-        """Whether a request is done."""
-        return True
 
 
 def world():
@@ -54,20 +30,6 @@ def world():
     from mpi4py import MPI
 
     return MPI.COMM_WORLD
-
-
-def on_root(comm, act):
-    """Result of `act` on rank 0, None elsewhere; an error there is raised on every rank."""
-    result = error = None
-    if comm.rank == 0:
-        try:
-            result = act()
-        except Exception as found:
-            error = found
-    error = comm.bcast(error)
-    if error is not None:
-        raise error
-    return result
 
 
 class Domain:
@@ -92,6 +54,8 @@ class Domain:
         CPU time spent in communication and in waiting for it.
     migrated : int
         Particles that came here from other ranks.
+    ghosts : int
+        How many there were in the last step.
     """
 
     def __init__(self, slabs, comm=None):
@@ -100,7 +64,7 @@ class Domain:
         self.rank, self.size = self.comm.rank, self.comm.size
         self.cuts = balance.cut("static", np.zeros(slabs.count), self.size)
         self.slab, self.owned = np.zeros(0, np.int32), np.zeros(0, bool)
-        self.waited, self.migrated = 0.0, 0
+        self.waited, self.migrated, self.ghosts = 0.0, 0, 0
         self._halo = []
 
     @property
@@ -120,7 +84,8 @@ class Domain:
     def take_part(self, particles, method):
         """This rank's share of all particles, cut by a method of :mod:`mpslab.balance`."""
         self.slab = self.slabs.of(particles.position[:, 0])
-        self.cuts = balance.cut(method, self._weights(particles), self.size)
+        work = rebalance.load(method, particles.fluid, self.slab, self.slabs.count)
+        self.cuts = balance.cut(method, work, self.size)
         self.owned = (self.begin <= self.slab) & (self.slab < self.end)
         return self.without_ghosts(particles)
 
@@ -170,6 +135,7 @@ class Domain:
         arrays = _merged([arrays, *self._exchange(arrays, send)])
         self.slab = slab = self._slab_of(arrays)
         self.owned = (self.begin <= slab) & (slab < self.end)
+        self.ghosts = int(np.count_nonzero(~self.owned))
         self._halo = []
         for r in self._beside():
             give = np.flatnonzero(self.owned & np.isin(slab, self.ghosts_of(r)))
@@ -188,6 +154,7 @@ class Domain:
         """Send rows[r] of the arrays to each rank r; what comes in, an entry a rank that sends."""
         kind = np.dtype([(str(k), a.dtype, a.shape[1:]) for k, a in enumerate(arrays)])
         began = time.process_time()
+        meet(self.comm)
         counts = self.comm.alltoall([len(r) for r in rows])
         requests, sent, came = [], [], []
         for r in range(self.size):
@@ -228,9 +195,7 @@ class Domain:
         self._wait(requests, began)
 
     def _wait(self, requests, began):
-        for request in requests:
-            while not request.Test():
-                os.sched_yield()  # where ranks share a core, the other one has work to do
+        finish(requests)
         self.waited += time.process_time() - began
 
     def add(self, by_slab):
@@ -250,9 +215,17 @@ class Domain:
     def from_all(self, item):
         """What each rank gives, a list in the order of ranks, the same on all of them."""
         began = time.process_time()
+        meet(self.comm)
         items = self.comm.allgather(item)
         self.waited += time.process_time() - began
         return items
+
+    def on_root(self, act):
+        """As the function `on_root`; for the other ranks that is waiting."""
+        began = time.process_time()
+        result = on_root(self.comm, act)
+        self.waited += time.process_time() - began if self.rank else 0.0
+        return result
 
     def gather(self, particles):
         """The particles of all ranks in the order of gid on rank 0, None elsewhere."""
@@ -262,11 +235,6 @@ class Domain:
         everything = np.arange(len(particles)) if self.rank else []
         come = self._exchange(arrays, [everything, *[[]] * (self.size - 1)])
         return ParticleSet(*_merged([arrays, *come])) if self.rank == 0 else None
-
-    def _weights(self, particles):
-        """Work that the particles make in each slab (slabs,)."""
-        weight = np.where(particles.fluid, 1.0, SOLID)
-        return np.bincount(self.slab, weight, minlength=self.slabs.count)
 
 
 POSITION = [f.name for f in fields(ParticleSet)].index("position")

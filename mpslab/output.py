@@ -27,6 +27,17 @@ STEP_COLUMNS = {
     "piston_work": "piston_work [J]",
     "lost": "lost",
 }
+DECOMPOSITION_COLUMNS = {
+    "step": "step",
+    "time": "time [s]",
+    "particles": "particles of each rank",
+    "seconds": "work of each rank [s]",
+    "waiting": "waiting of each rank [s]",
+    "imbalance_before": "imbalance before",
+    "imbalance_after": "imbalance after",
+    "migrated": "migrated",
+    "ghosts": "ghosts",
+}
 LOST_COLUMNS = ("step", "time [s]", "gid", "x [m]", "y [m]", "z [m]", "reason")
 PROBE_QUANTITIES = ("pressure [Pa]", "u [m/s]", "v [m/s]", "w [m/s]")
 
@@ -179,6 +190,19 @@ class RunFolder:
             self._resumed = earlier["resumed"] + 1
         except (OSError, ValueError, KeyError):
             self._resumed = 1
+
+    def open_decomposition(self, last_step=None):
+        """Open ``decomposition.csv``, which a run on several ranks writes."""
+        self._tables["decomposition"] = CsvTable(
+            self.path / "decomposition.csv", DECOMPOSITION_COLUMNS.values(), last_step
+        )
+
+    def add_decomposition(self, **entries):
+        """Add a row to ``decomposition.csv``; a list has an entry a rank, with blanks between."""
+        cells = [entries[key] for key in DECOMPOSITION_COLUMNS]
+        self._tables["decomposition"].append(
+            [" ".join(map(str, c)) if isinstance(c, list) else c for c in cells]
+        )
 
     def open_tables(self, gauges=(), probes=(), last_step=None, last_time=None):
         """Open ``steps.csv``, ``gauges.csv``, ``probes.csv`` and ``lost.csv``.

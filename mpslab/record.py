@@ -8,9 +8,13 @@ from mpslab import checkpoint, diagnostics, gauges, vtkhdf
 from mpslab.output import PROBE_QUANTITIES, STEP_COLUMNS
 from mpslab.particles import KIND_NAMES
 
+REACH = 3.0  # spacings: no instrument sees further along the tank
+
 
 class Record:
-    """Collects the series of a run and writes them to its folder.
+    """Collects the series of a run and, on rank 0, writes them to its folder.
+
+    All ranks call its methods; an error in writing is raised on each of them.
 
     Parameters
     ----------
@@ -26,13 +30,21 @@ class Record:
         self.last_row = {}
         self.frames = None
 
+    def _write(self, act):
+        """Call `act` on rank 0, if the run has a folder."""
+        if self.folder:
+            self.flow.domain.on_root(act)
+
     def begin(self, step=None):
         """Open the tables; after a restart, drop what is later than its step and time."""
-        if self.folder is None:
-            return
+        self._write(lambda: self._open(step))
+
+    def _open(self, step):
         time = None if step is None else self.flow.time
         names = [g.name for g in self.case.gauge], [p.name for p in self.case.probe]
         self.folder.open_tables(*names, last_step=step, last_time=time)
+        if self.flow.domain.size > 1:
+            self.folder.open_decomposition(step)
         if step is not None:
             self._cut_frames(time)
         self.frames = vtkhdf.ParticleSeries(self.folder.particles, self.case.output.fields)
@@ -46,17 +58,40 @@ class Record:
             path.rename(path.with_suffix(".damaged.vtkhdf"))
             warnings.warn(f"{error}; set aside, the frames begin anew", stacklevel=2)
 
+    def write_case(self, text):
+        """Write `case.toml`."""
+        self._write(lambda: self.folder.write_case(text))
+
     def add_step(self, **entries):
         """Add a row; the keywords are the keys of `mpslab.output.STEP_COLUMNS`."""
         self.last_row = entries
         self.steps.append(tuple(entries[key] for key in STEP_COLUMNS))
-        if self.folder:
-            self.folder.add_step(**entries)
+        self._write(lambda: self.folder.add_step(**entries))
+
+    def add_decomposition(self, **entries):
+        """Add a row; the keywords are the keys of `mpslab.output.DECOMPOSITION_COLUMNS`."""
+        self._write(lambda: self.folder.add_decomposition(**entries))
 
     def read_instruments(self):
-        """Read all gauges and probes at the present time."""
-        p, stencil = self.flow.particles, self.flow.stencil
-        spacing, width = stencil.spacing, stencil.width
+        """Read all gauges and probes at the present time, on rank 0."""
+        particles = self.flow.domain.gather(self._near_instruments())
+        if particles is not None:
+            self._read(particles)
+        self._write(lambda: self._write_instruments())
+
+    def _near_instruments(self):
+        """This rank's particles within the reach of an instrument."""
+        particles, domain = self.flow.particles, self.flow.domain
+        if domain.size == 1:
+            return particles
+        near = np.zeros(len(particles), bool)
+        for instrument in (*self.case.gauge, *self.case.probe):
+            far = np.abs(particles.position[:, 0] - instrument.x)
+            near |= far < REACH * self.flow.stencil.spacing
+        return particles.take(near)
+
+    def _read(self, p):
+        spacing, width = self.flow.stencil.spacing, self.flow.stencil.width
         levels = [
             gauges.surface_elevation(p.position, p.kind, spacing, g.x, g.y, width)
             for g in self.case.gauge
@@ -68,35 +103,59 @@ class Record:
         ]  # fmt: skip
         self.gauges.append((self.flow.time, *levels))
         self.probes.append((self.flow.time, *(v for probe in values for v in probe)))
-        if self.folder:
-            self.folder.add_gauges(self.flow.time, levels)
-            self.folder.add_probes(self.flow.time, values)
+
+    def _write_instruments(self):
+        time, *levels = self.gauges[-1]
+        values = np.reshape(self.probes[-1][1:], (-1, len(PROBE_QUANTITIES)))
+        self.folder.add_gauges(time, levels)
+        self.folder.add_probes(time, values.tolist())
 
     def add_frame(self):
         """Write the particles for ParaView."""
         if self.folder:
-            self.frames.append(self.flow.time, self.flow.particles)
+            particles = self.flow.domain.gather(self.flow.particles)
+            self._write(lambda: self.frames.append(self.flow.time, particles))
 
     def add_lost(self, step, lost):
-        """Write down particles that left the tank, before they are taken out."""
-        if self.folder:
-            p = self.flow.particles
-            self.folder.add_lost(step, self.flow.time, p.gid[lost.rows], p.position[lost.rows],
-                                 lost.reason)  # fmt: skip
+        """Write down this rank's particles that left the tank, before they are taken out.
 
-    def write_checkpoint(self, state, path=None):
-        """Write the state of the run; to `checkpoint.h5` unless another path is given."""
+        Returns
+        -------
+        int
+            How many left it on all ranks.
+        """
+        p, time = self.flow.particles, self.flow.time
+        mine = [(int(p.gid[r]), p.position[r].tolist(), x.reason) for x in lost for r in x.rows]
+        found = sorted(one for rank in self.flow.domain.from_all(mine) for one in rank)
+        if found:
+            self._write(lambda: [self.folder.add_lost(step, time, [gid], [place], reason)
+                                 for gid, place, reason in found])  # fmt: skip
+        return len(found)
+
+    def write_checkpoint(self, state, name=None):
+        """Write the state of the run, to `checkpoint.h5` unless another name is given."""
         if self.folder:
-            self.folder.flush()
-            checkpoint.write(path or self.folder.checkpoint, self.flow.particles, state)
+            particles = self.flow.domain.gather(self.flow.particles)
+            self._write(lambda: self._write_state(particles, state, name))
             self.write_run("running")
+
+    def _write_state(self, particles, state, name):
+        self.folder.flush()
+        path = self.folder.path / name if name else self.folder.checkpoint
+        checkpoint.write(path, particles, state)
 
     def write_run(self, outcome, reason=None):
         """Write `run.json`."""
         if self.folder:
             kinds = np.bincount(self.flow.particles.kind, minlength=len(KIND_NAMES))
+            kinds = np.sum(self.flow.domain.from_all(kinds), axis=0)
             counts = dict(zip(KIND_NAMES, kinds, strict=True))
-            self.folder.write_run(outcome, counts, self.flow.stopwatch.seconds, reason)
+            seconds = self.flow.stopwatch.seconds
+            self._write(lambda: self.folder.write_run(outcome, counts, seconds, reason))
+
+    def flush(self):
+        """Bring the tables up to date on the disk."""
+        self._write(lambda: self.folder.flush())
 
     def series(self, which):
         """A table as a structured array: "steps", "gauges" or "probes"."""
@@ -114,15 +173,16 @@ class Record:
     def measures(self, before):
         """What the water holds now and what the piston did since `before` [s], for a row."""
         p, stencil, fluid = self.flow.particles, self.flow.stencil, self.case.fluid
-        force = diagnostics.piston_force(p, stencil)
+        total = self.flow.domain.total
+        force = diagnostics.piston_force(p, stencil, total)
         stroke = self.flow.piston.face(self.flow.time) - self.flow.piston.face(before)
         return {
-            "max_speed": diagnostics.max_speed(p),
-            "kinetic_energy": diagnostics.kinetic_energy(p, stencil, fluid.density),
+            "max_speed": max(self.flow.domain.from_all(diagnostics.max_speed(p))),
+            "kinetic_energy": diagnostics.kinetic_energy(p, stencil, fluid.density, total),
             "potential_energy": diagnostics.potential_energy(
-                p, stencil, fluid.density, fluid.gravity
+                p, stencil, fluid.density, fluid.gravity, total
             ),
-            "volume": diagnostics.volume(p, stencil),
+            "volume": diagnostics.volume(p, stencil, total),
             "piston_force": force,
             "piston_work": force * stroke,
         }

@@ -6,16 +6,19 @@ import numpy as np
 
 from mpslab import checkpoint, diagnostics, geometry, initial, timestep
 from mpslab.cases import dumps, load_case
+from mpslab.communicator import on_root
+from mpslab.domain import world
 from mpslab.output import RunFolder
 from mpslab.particles import ParticleSet
 from mpslab.piston import Piston, make_paddle
+from mpslab.rebalance import Rebalancer
 from mpslab.record import Record
 from mpslab.step import advance, make_flow
 from mpslab.watch import RunFailed, check_finite, check_lost, check_step, find_lost
 
 
 class Simulation:
-    """A run of a case, from Python.
+    """A run of a case, from Python; under mpiexec, this rank's part of it.
 
     Parameters
     ----------
@@ -27,7 +30,7 @@ class Simulation:
     Attributes
     ----------
     particles : ParticleSet
-        The particles as numpy arrays, in SI units.
+        The particles as numpy arrays, in SI units; of many ranks, those of this one.
     time : float [s]
     step : int
         Number of steps done.
@@ -46,11 +49,10 @@ class Simulation:
         particles = geometry.build_particles(case, paddle.backmost if paddle else 0.0)
         initial.set_velocity(case, particles)
         piston = Piston(particles, paddle, case.particles.spacing)
-        folder = None if out is None else RunFolder.create(out)
-        self._set_up(case, particles, piston, folder)
         self.at_start = int(np.count_nonzero(particles.fluid))
-        if folder:
-            folder.write_case(dumps(case))
+        flow = make_flow(case, particles, piston, geometry.period(case))
+        self._set_up(case, flow, None if out is None else _on_root(RunFolder.create, out))
+        self._record.write_case(dumps(case))
         self._record.begin()
         self._record.read_instruments()
         self._record.add_frame()
@@ -64,27 +66,29 @@ class Simulation:
         ValueError
             If the folder holds no run, or its checkpoint is damaged.
         """
-        folder = RunFolder.reopen(folder)
+        folder = _on_root(RunFolder.reopen, folder)
         case = load_case(folder.case)
         arrays, state = checkpoint.read(folder.checkpoint)
         particles = ParticleSet(**arrays)
         piston = Piston(particles, make_paddle(case), case.particles.spacing)
         piston.rest, piston.bed = state["piston_rest"], state["piston_bed"]
         self = cls.__new__(cls)
-        self._set_up(case, particles, piston, folder)
+        flow = make_flow(case, particles, piston, geometry.period(case))
+        self._set_up(case, flow, folder)
         self.step, self.dt, self.lost = state["step"], state["dt"], state["lost"]
         self.at_start = state["at_start"]
         self._flow.time = state["time"]
         self._record.begin(self.step)
         return self
 
-    def _set_up(self, case, particles, piston, folder):
+    def _set_up(self, case, flow, folder):
         self.case = case
         self.step, self.dt, self.lost = 0, 0.0, 0
         self.stop_requested = False
         self.outcome, self.reason = "running", None
-        self._flow = make_flow(case, particles, piston, geometry.period(case))
-        self._record = Record(case, self._flow, folder)
+        self._flow = flow
+        self._record = Record(case, flow, folder)
+        self._rebalancer = Rebalancer(flow.domain, case.parallel.balance)
 
     @property
     def particles(self):
@@ -100,6 +104,11 @@ class Simulation:
     def folder(self):
         """The `RunFolder`, None for a run in memory."""
         return self._record.folder
+
+    @property
+    def domain(self):
+        """The part of the tank of this rank, a `mpslab.domain.Domain`."""
+        return self._flow.domain
 
     @property
     def steps(self):
@@ -123,7 +132,7 @@ class Simulation:
 
     @property
     def phases(self):
-        """Seconds spent in neighbours, operators, assembly and solve."""
+        """Seconds spent in ghosts, neighbours, operators, assembly and solve."""
         return dict(self._flow.stopwatch.seconds)
 
     def run(self, until=None, progress=None):
@@ -149,7 +158,7 @@ class Simulation:
         until = self.case.time.end if until is None else until
         self._record.write_run("running")
         try:
-            while self.time < until and not self.stop_requested:
+            while self.time < until and not any(self.domain.from_all(self.stop_requested)):
                 self.advance()
                 if progress:
                     progress(self)
@@ -164,7 +173,7 @@ class Simulation:
         """One time step, written down; raises RunFailed when no other may follow."""
         began, before = clock.perf_counter(), self.time
         check_finite(self._flow, self.step)
-        speed = diagnostics.max_speed(self.particles)
+        speed = max(self.domain.from_all(diagnostics.max_speed(self.particles)))
         self.dt, limit = timestep.choose(self.case, self.dt, speed)
         report = advance(self._flow, self.dt)
         self.step += 1
@@ -177,16 +186,18 @@ class Simulation:
             seconds=clock.perf_counter() - began, **self._record.measures(before),
         )  # fmt: skip
         self._write_due(before)
+        if self.domain.size > 1 and self.step % self.case.parallel.rebalance_every == 0:
+            cut = self._rebalancer.cut(self.particles)
+            self._record.add_decomposition(step=self.step, time=self.time, **cut)
 
     def _take_out_lost(self):
         particles = self.particles
-        keep = np.ones(len(particles), bool)
-        for lost in find_lost(self.case, particles, self._flow.piston.face(self.time)):
-            self._record.add_lost(self.step, lost)
-            keep[lost.rows] = False
-            self.lost += len(lost.rows)
-        if not keep.all():
-            self._flow.particles = particles.take(keep)
+        lost = find_lost(self.case, particles, self._flow.piston.face(self.time))
+        self.lost += self._record.add_lost(self.step, lost)
+        if lost:
+            keep = np.ones(len(particles), bool)
+            keep[np.concatenate([side.rows for side in lost])] = False
+            self._flow.particles = self.domain.keep(particles, keep)
 
     def _write_due(self, before):
         """Write what fell due in this step; no state is kept, so a restart writes the same."""
@@ -216,9 +227,12 @@ class Simulation:
     def _end(self, outcome, reason):
         """Leave a checkpoint and the record; a failed state does not replace a good one."""
         self.outcome, self.reason = outcome, reason
-        folder = self.folder
-        failed = folder.path / "failed.h5" if folder and outcome == "failed" else None
-        self._record.write_checkpoint(self._state(), failed)
+        name = "failed.h5" if outcome == "failed" else None
+        self._record.write_checkpoint(self._state(), name)
         self._record.write_run(outcome, reason)
-        if folder:
-            folder.flush()
+        self._record.flush()
+
+
+def _on_root(make, path):
+    """The `RunFolder` that rank 0 makes; the other ranks know where it is."""
+    return on_root(world(), lambda: make(path)) or RunFolder(path)

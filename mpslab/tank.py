@@ -1,11 +1,14 @@
 """The command line: ``python -m mpslab.tank``."""
 
 import argparse
+import os
 import signal
 import sys
+import traceback
 from pathlib import Path
 
-from mpslab import cases, pictures
+from mpslab import cases, launch, pictures
+from mpslab.domain import world
 from mpslab.preflight import preflight
 from mpslab.progress import make_progress
 from mpslab.simulation import Simulation
@@ -34,6 +37,8 @@ def _parser():
     parser.add_argument("--out", metavar="DIR", help="new or empty folder for the results")
     parser.add_argument("--until", type=float, metavar="SECONDS", help="stop at this time")
     parser.add_argument("--resume", metavar="DIR", help="go on with the run in this folder")
+    parser.add_argument("--ranks", type=int, default=0, metavar="N",
+                        help="share the tank out among N processes")  # fmt: skip
     parser.add_argument("--check", action="store_true", help="look at the case, run nothing")
     parser.add_argument("--list", action="store_true", help="list the built-in cases")
     parser.add_argument("--show", metavar="CASE", help="print the file of a built-in case")
@@ -45,34 +50,62 @@ def main(arguments=None):
 
     0: done; 2: bad input, nothing done; 3: the run went wrong; 130: stopped by Ctrl-C.
     """
+    comm = world()
     try:
         options = _parser().parse_args(arguments)
-        return _dispatch(options)
+        _start_ranks(options, sys.argv[1:] if arguments is None else arguments, comm)
+        return _dispatch(options, comm)
     except ValueError as error:
-        print(f"mpslab: {error}", file=sys.stderr)
+        if comm.rank == 0:
+            print(f"mpslab: {error}", file=sys.stderr)
         return BAD_INPUT
+    except Exception:
+        if comm.size == 1:
+            raise
+        # The other ranks would wait for this one for ever.
+        print(f"mpslab: rank {comm.rank} of {comm.size} failed:\n{traceback.format_exc()}"
+              "The last checkpoint is good.", file=sys.stderr, flush=True)  # fmt: skip
+        comm.Abort(FAILED)
 
 
-def _dispatch(options):
+def _start_ranks(options, arguments, comm):
+    """Take on the shape of mpiexec, with the same arguments, if more ranks are asked for."""
+    if options.ranks < 0:
+        raise ValueError(f"--ranks {options.ranks}: must be a whole number >= 1")
+    if options.ranks in (0, comm.size):
+        return
+    if comm.size > 1:
+        raise ValueError(f"--ranks {options.ranks}: but mpiexec started {comm.size} already")
+    line = launch.command(options.ranks, "-m", "mpslab.tank", *arguments)
+    os.execv(line[0], line)
+
+
+def _dispatch(options, comm):
+    tell = print if comm.rank == 0 else _silent
     if options.list:
         for name in cases.names():
-            print(f"{name:<18} {cases.load_case(name).title}")
+            tell(f"{name:<18} {cases.load_case(name).title}")
         return 0
     if options.show:
-        print(cases.text(options.show), end="")
+        tell(cases.text(options.show), end="")
         return 0
     if options.resume:
-        return _run(_resumed(options), options.until)
+        return _run(_resumed(options), options.until, tell)
     changes = dict(cases.parse_set(item) for item in options.set)
     case = cases.load_case(options.case or DEFAULT_CASE, changes)
     _check_until(options.until, case)
     report = preflight(case)
     if options.check:
-        print(f"{case.name}: {case.title}\n{report.text()}")
+        tell(f"{case.name}: {case.title}\n{report.text()}")
         return 0
     for warning in report.warnings:
-        print(f"Warning: {warning}", file=sys.stderr)
-    return _run(Simulation(case, options.out or _free_folder(case.name)), options.until)
+        tell(f"Warning: {warning}", file=sys.stderr)
+    out = options.out or comm.bcast(_free_folder(case.name))
+    return _run(Simulation(case, out), options.until, tell)
+
+
+def _silent(*words, **options):
+    """What the ranks but the first say."""
 
 
 def _resumed(options):
@@ -103,28 +136,36 @@ def _free_folder(name):
     return folder
 
 
-def _run(simulation, until):
+def _run(simulation, until, tell):
     folder = simulation.folder.path
     until = simulation.case.time.end if until is None else until
-    print(f"{simulation.case.name}: {len(simulation.particles):,} particles, to t = {until:g} s, "
-          f"results in {folder}", flush=True)  # fmt: skip
+    found = simulation.domain.from_all((len(simulation.particles), os.getpid()))
+    sizes, processes = zip(*found, strict=True)
+    # When a process is killed, mpiexec says which by its number.
+    numbers = ", ".join(map(str, processes))
+    ranks = f" on {len(sizes)} ranks (processes {numbers})" if len(sizes) > 1 else ""
+    tell(f"{simulation.case.name}: {sum(sizes):,} particles{ranks}, to t = {until:g} s, "
+         f"results in {folder}", flush=True)  # fmt: skip
     earlier = _stop_on_signals(simulation)
     try:
-        with make_progress(until, simulation.time) as progress:
-            simulation.run(until, progress)
+        if tell is print:
+            with make_progress(until, simulation.time) as progress:
+                simulation.run(until, progress)
+        else:
+            simulation.run(until)
     except RunFailed as failure:
-        print(f"mpslab: run stopped: {failure}\nThe state to look at is in {folder / 'failed.h5'}; "
-              f"the last good one in {folder / 'checkpoint.h5'}", file=sys.stderr)  # fmt: skip
+        tell(f"mpslab: run stopped: {failure}\nThe state to look at is in {folder / 'failed.h5'}; "
+             f"the last good one in {folder / 'checkpoint.h5'}", file=sys.stderr)  # fmt: skip
         return FAILED
     except OSError as error:
-        print(f"mpslab: run stopped: {folder} cannot be written ({error.strerror}) after step "
-              f"{simulation.step}, t = {simulation.time:.6g} s; the last checkpoint there is good",
-              file=sys.stderr)  # fmt: skip
+        tell(f"mpslab: run stopped: {folder} cannot be written ({error.strerror}) after step "
+             f"{simulation.step}, t = {simulation.time:.6g} s; the last checkpoint there is good",
+             file=sys.stderr)  # fmt: skip
         return FAILED
     finally:
         for number, handler in earlier.items():
             signal.signal(number, handler)
-    return _report(simulation)
+    return _report(simulation, tell)
 
 
 def _stop_on_signals(simulation):
@@ -136,27 +177,27 @@ def _stop_on_signals(simulation):
     return {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
 
 
-def _report(simulation):
+def _report(simulation, tell):
     folder = simulation.folder.path
-    _print_cost(simulation)
+    _tell_cost(simulation, tell)
     if simulation.outcome == "interrupted":
-        print(f"Stopped at t = {simulation.time:.4f} s; go on with\n"
-              f"  python -m mpslab.tank --resume {folder}")  # fmt: skip
+        tell(f"Stopped at t = {simulation.time:.4f} s; go on with\n"
+             f"  python -m mpslab.tank --resume {folder}")  # fmt: skip
         return INTERRUPTED
-    print(f"Done: t = {simulation.time:.4f} s after {simulation.step} steps, "
-          f"{simulation.lost} particles lost. Results in {folder}, pictures:")  # fmt: skip
-    for picture in pictures.draw_run(folder):
-        print(f"  {picture}")
+    tell(f"Done: t = {simulation.time:.4f} s after {simulation.step} steps, "
+         f"{simulation.lost} particles lost. Results in {folder}, pictures:")  # fmt: skip
+    for picture in pictures.draw_run(folder) if tell is print else ():
+        tell(f"  {picture}")
     return 0
 
 
-def _print_cost(simulation):
+def _tell_cost(simulation, tell):
     phases, steps = simulation.phases, len(simulation.steps)
     total = float(simulation.steps["seconds"].sum())
     if steps == 0:
         return
     shares = ", ".join(f"{name} {100 * s / total:.0f} %" for name, s in phases.items())
-    print(f"{total / steps:.3g} s a step: {shares}")
+    tell(f"{total / steps:.3g} s a step: {shares}")
 
 
 if __name__ == "__main__":

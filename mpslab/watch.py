@@ -55,9 +55,12 @@ def check_finite(flow, step):
     """Raise RunFailed where a position or velocity is not a number."""
     finite = np.isfinite(flow.particles.position) & np.isfinite(flow.particles.velocity)
     bad = np.flatnonzero(~finite.all(axis=1))
-    if len(bad):
+    found = flow.domain.from_all((len(bad), _place(flow, bad[0]) if len(bad) else None))
+    places = [place for _, place in found if place]
+    if places:
+        count = sum(count for count, _ in found)
         raise RunFailed(
-            f"not a number in {len(bad)} particles, {_when(flow, step)}, {_place(flow, bad[0])}"
+            f"not a number in {count} particles, {_when(flow, step)}, {_named(min(places))}"
         )
 
 
@@ -92,10 +95,16 @@ def check_lost(flow, lost, at_start, step):
 
 
 def _place(flow, row):
-    x, y, z = flow.particles.position[row]
-    return f"particle {flow.particles.gid[row]} at x = {x:.4g}, y = {y:.4g}, z = {z:.4g} m"
+    return int(flow.particles.gid[row]), flow.particles.position[row].tolist()
+
+
+def _named(place):
+    gid, (x, y, z) = place
+    return f"particle {gid} at x = {x:.4g}, y = {y:.4g}, z = {z:.4g} m"
 
 
 def _fastest(flow):
     speed = np.where(flow.particles.fluid, np.abs(flow.particles.velocity).max(axis=1), -1.0)
-    return "fastest " + _place(flow, int(np.argmax(speed)))
+    row = int(np.argmax(speed)) if len(speed) else None
+    mine = None if row is None else (-float(speed[row]), _place(flow, row))
+    return "fastest " + _named(min(found for found in flow.domain.from_all(mine) if found)[1])

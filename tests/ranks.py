@@ -84,6 +84,47 @@ def crossing(places):
     return {"ranks": everyone, "total": sum(total)}
 
 
+def spoiled(how, folder):
+    """A run that goes wrong in its third step: a rank raises, its water is not a number, ..."""
+    import errno
+
+    import numpy as np
+
+    from mpslab import output, simulation, tank
+    from mpslab.domain import world
+
+    advance, comm = simulation.advance, world()
+
+    def spoil(flow, dt):
+        report = advance(flow, dt)
+        if comm.rank == 1 and flow.time > 4e-4:
+            if how == "raises":
+                raise IndexError("a fault in the code")
+            if how == "nan":
+                flow.particles.velocity[0] = np.nan
+        return report
+
+    def full(folder, step, **entries):
+        if step == 3:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    if how == "disk":
+        output.RunFolder.add_step = full
+    simulation.advance = spoil
+    sys.exit(tank.main([*SMALL, "--out", folder]))
+
+
+SMALL = ["plunging_breaker", "--set", "tank.width=0", "--set", "scheme.solver=piccg",
+         "--set", "parallel.rebalance_every=5", "--set", "output.checkpoint=0.001"]  # fmt: skip
+
+
+def tank(*arguments):
+    """The command line as a process of its own, not waited for."""
+    line = [sys.executable, "-m", "mpslab.tank", *arguments]
+    return subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                            env=environment())  # fmt: skip
+
+
 if __name__ == "__main__":
     result = globals()[sys.argv[1]](*(json.loads(a) for a in sys.argv[2:]))
     from mpslab.domain import world

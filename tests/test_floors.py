@@ -13,7 +13,7 @@ FLOORS = {
     4: "step timestep",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
     "conjugate_gradient piston geometry correction",
-    2: "balance domain",
+    2: "balance communicator domain rebalance",
     1: "particles neighbors stencil sparse slabs parameters keys plugins bed paddle waves breaking "
     "stopwatch files",
     0: "kernels",

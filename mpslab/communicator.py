@@ -1,0 +1,65 @@
+"""The ranks as a group: the group of one, and how to wait for the others."""
+
+import os
+import time
+
+# So many looks at a message that has not come, each a microsecond, before a nap [s].
+PATIENCE = 100
+PAUSE = 2e-5
+
+
+class Alone:
+    """The communicator of a process without others."""
+
+    rank, size = 0, 1
+
+    def allgather(self, item):
+        """What all ranks give, a list."""
+        return [item]
+
+    def bcast(self, item):
+        """What rank 0 gives."""
+        return item
+
+    def Iallreduce(self, give, take):
+        """Sum over the ranks; the request is done at once."""
+        take[:] = give
+        return self
+
+    def Test(self):
+        """Whether a request is done."""
+        return True
+
+
+def meet(comm):
+    """Wait until all ranks are here.
+
+    A rank that waits inside MPI keeps its core busy; where ranks share one, the other rank could
+    not get on.
+    """
+    if comm.size > 1:
+        finish([comm.Ibarrier()])
+
+
+def finish(requests):
+    """Wait for requests, and let others have the core if that takes long."""
+    spins = 0
+    for request in requests:
+        while not request.Test():
+            spins += 1
+            os.sched_yield() if spins < PATIENCE else time.sleep(PAUSE)
+
+
+def on_root(comm, act):
+    """Result of `act` on rank 0, None elsewhere; an error there is raised on every rank."""
+    result = error = None
+    if comm.rank == 0:
+        try:
+            result = act()
+        except Exception as found:
+            error = found
+    meet(comm)
+    error = comm.bcast(error)
+    if error is not None:
+        raise error
+    return result

@@ -1,0 +1,196 @@
+"""Runs on several ranks from the command line: the same files, and no end without a word."""
+
+import csv
+import os
+import re
+import signal
+import subprocess
+import time
+
+import numpy as np
+import pytest
+from ranks import ROOT, SMALL, TIMEOUT, environment, tank
+
+from mpslab import checkpoint, launch
+
+FILES = ("particles.vtkhdf", "checkpoint.h5", "gauges.csv", "probes.csv", "lost.csv")
+END = ["--until", "0.015"]
+
+
+def finished(*arguments):
+    """Output of a command line that ends well."""
+    process = tank(*arguments)
+    text, _ = process.communicate(timeout=TIMEOUT)
+    assert process.returncode == 0, text
+    return text
+
+
+def table(folder, name="steps", without=("seconds",)):
+    with (folder / f"{name}.csv").open() as file:
+        return [{k: v for k, v in row.items() if k not in without} for row in csv.DictReader(file)]
+
+
+def assert_same_results(one, other):
+    for name in FILES:
+        assert (one / name).read_bytes() == (other / name).read_bytes(), name
+    assert table(one) == table(other)
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory):
+    """Results of the small tank on one rank."""
+    folder = tmp_path_factory.mktemp("alone") / "run"
+    finished(*SMALL, *END, "--out", str(folder))
+    return folder
+
+
+@pytest.mark.parametrize("ranks", [2, 4])
+def test_ranks_leave_the_same_files_as_one(alone, tmp_path, ranks):
+    text = finished(*SMALL, *END, "--out", str(tmp_path / "run"), "--ranks", str(ranks))
+    assert text.count("Done:") == 1
+    assert f"on {ranks} ranks" in text
+    assert_same_results(alone, tmp_path / "run")
+
+
+def test_mpiexec_starts_the_same_run(alone, tmp_path):
+    line = launch.command(3, "-m", "mpslab.tank", *SMALL, *END, "--out", str(tmp_path / "run"),
+                          "--set", "parallel.balance=static")  # fmt: skip
+    done = subprocess.run(line, env=environment(), cwd=ROOT, timeout=TIMEOUT, capture_output=True)
+    assert done.returncode == 0, done.stderr
+    last = [checkpoint.read(f / "checkpoint.h5")[0] for f in (alone, tmp_path / "run")]
+    for name, array in last[0].items():
+        assert array.tobytes() == last[1][name].tobytes(), name
+
+
+def test_a_checkpoint_goes_on_with_any_number_of_ranks(alone, tmp_path):
+    folder = str(tmp_path / "run")
+    finished(*SMALL, "--until", "0.004", "--out", folder, "--ranks", "3")
+    finished("--resume", folder, "--until", "0.009", "--ranks", "2")
+    finished("--resume", folder, *END)
+    assert table(tmp_path / "run") == table(alone)
+    last = [checkpoint.read(f / "checkpoint.h5")[0] for f in (alone, tmp_path / "run")]
+    for name, array in last[0].items():
+        assert array.tobytes() == last[1][name].tobytes(), name
+
+
+def test_rebalancing_is_written_down(tmp_path):
+    folder = tmp_path / "run"
+    finished(*SMALL, *END, "--out", str(folder), "--ranks", "2")
+    rows = table(folder, "decomposition")
+    assert [int(row["step"]) for row in rows] == list(range(5, int(rows[-1]["step"]) + 1, 5))
+    total = len(checkpoint.read(folder / "checkpoint.h5")[0]["gid"])
+    for row in rows:
+        assert sum(map(int, row["particles of each rank"].split())) == total
+        assert len(row["work of each rank [s]"].split()) == 2
+        assert 1.0 <= float(row["imbalance after"]) <= float(row["imbalance before"]) < 1.2
+        assert int(row["ghosts"]) > 0
+
+
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        (["--ranks", "-1"], "--ranks -1: must be a whole number >= 1"),
+        (["--ranks", "2", "--set", "scheme.solver=iccg"], 'scheme.solver = "iccg": runs on one'),
+        (["--ranks", "3", "--set", "parallel.balance=centroid"], "ranks = 3: must be a power of"),
+        (["--ranks", "3", "--set", "particles.spacing=0.04", "--set", "tank.depth=0.2",
+          "--set", "tank.length=0.2", "--set", "tank.bed=[]", "--set", "wavemaker.height=0.08",
+          "--set", "gauge=[]", "--set", "probe=[]"],
+         "ranks = 3: must be from 1 to 2, the number of slabs"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_shared_out_is_refused_in_one_line(tmp_path, arguments, message):
+    process = tank(*SMALL, "--out", str(tmp_path / "run"), *arguments)
+    text, _ = process.communicate(timeout=TIMEOUT)
+    assert process.returncode == 2, text
+    assert [line for line in text.splitlines() if message in line and "mpslab: " in line], text
+    assert text.count("mpslab: ") == 1
+    assert not (tmp_path / "run").exists()
+
+
+def run_until_checkpoint(folder, ranks=2):
+    """A run that has left a checkpoint, and the numbers of its ranks' processes."""
+    process = tank(*SMALL, "--out", str(folder), "--ranks", str(ranks))
+    first = process.stdout.readline()
+    numbers = [int(n) for n in re.search(r"processes ([\d, ]+)", first)[1].split(", ")]
+    end = time.monotonic() + 60.0
+    while not (folder / "checkpoint.h5").exists() and time.monotonic() < end:
+        time.sleep(0.05)
+    return process, numbers
+
+
+def running(number):
+    try:
+        with open(f"/proc/{number}/stat") as file:
+            return file.read().rpartition(")")[2].split()[0] not in "ZX"
+    except FileNotFoundError:
+        return False
+
+
+def assert_goes_on(folder, steps=3):
+    """The last checkpoint is good: the run goes on from it, on one rank."""
+    _, state = checkpoint.read(folder / "checkpoint.h5")
+    finished("--resume", str(folder), "--until", str(state["time"] + 3e-3))
+    rows = [int(row["step"]) for row in table(folder)]
+    assert rows == list(range(1, len(rows) + 1))
+    assert rows[-1] > state["step"]
+
+
+@pytest.mark.parametrize("victim", [0, 1])
+def test_a_killed_rank_ends_all_within_10_seconds_and_is_named(tmp_path, victim):
+    folder = tmp_path / "run"
+    process, numbers = run_until_checkpoint(folder)
+    os.kill(numbers[victim], signal.SIGKILL)
+    text, _ = process.communicate(timeout=10.0)
+    assert process.returncode not in (0, None)
+    assert f"PID {numbers[victim]} " in text
+    assert "Killed (signal 9)" in text
+    assert not any(map(running, numbers))
+    assert_goes_on(folder)
+
+
+def test_a_killed_launcher_takes_the_ranks_with_it(tmp_path):
+    folder = tmp_path / "run"
+    process, numbers = run_until_checkpoint(folder)
+    process.kill()
+    process.communicate(timeout=10.0)
+    end = time.monotonic() + 10.0
+    while any(map(running, numbers)) and time.monotonic() < end:
+        time.sleep(0.1)
+    assert not any(map(running, numbers))
+    assert_goes_on(folder)
+
+
+def test_ctrl_c_ends_all_ranks_after_the_same_step(tmp_path):
+    folder = tmp_path / "run"
+    process, _ = run_until_checkpoint(folder, ranks=3)
+    process.send_signal(signal.SIGINT)
+    text, _ = process.communicate(timeout=20.0)
+    assert "Stopped at t =" in text
+    assert_goes_on(folder)
+
+
+def spoil(how, folder):
+    line = launch.command(2, str(ROOT / "tests" / "ranks.py"), "spoiled", f'"{how}"', f'"{folder}"')
+    return subprocess.run(line, env=environment(), cwd=ROOT, timeout=30.0, capture_output=True,
+                          text=True)  # fmt: skip
+
+
+def test_a_rank_that_raises_ends_all_and_says_which_and_why(tmp_path):
+    done = spoil("raises", tmp_path / "run")
+    assert done.returncode != 0
+    assert "rank 1 of 2 failed" in done.stderr
+    assert "IndexError: a fault in the code" in done.stderr
+
+
+def test_a_full_disk_on_rank_0_ends_all_ranks(tmp_path):
+    done = spoil("disk", tmp_path / "run")
+    assert done.returncode == 3
+    assert done.stderr.count("cannot be written (No space left on device) after step 3") == 1
+
+
+def test_not_a_number_on_one_rank_is_a_failure_of_the_run(tmp_path):
+    done = spoil("nan", tmp_path / "run")
+    assert done.returncode == 3
+    assert done.stderr.count("run stopped: not a number in 1 particles, step 3, ") == 1
+    arrays, _ = checkpoint.read(tmp_path / "run" / "failed.h5")
+    assert np.isnan(arrays["velocity"]).any(axis=1).sum() == 1
