@@ -42,7 +42,8 @@ def piston_force(particles, stencil, total=np.sum):
     The pressure of the piston's first layer, each particle for a face of d0^(Ds-1).
     """
     face = stencil.spacing ** (stencil.dim - 1)
-    return face * float(total(np.where(particles.kind == PISTON, particles.pressure, 0.0)))
+    pressure = np.where(particles.kind == PISTON, particles.pressure, 0.0)
+    return face * float(total(pressure))
 
 
 def volume(particles, stencil, total=np.sum):
