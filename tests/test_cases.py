@@ -217,7 +217,7 @@ def test_standard_is_the_default_scheme():
 
 def test_recipe_paper_does_what_the_paper_does():
     scheme = cases.load_case("plunging_breaker", {"scheme.recipe": "paper"}).scheme
-    assert (scheme.gradient, scheme.source, scheme.solver) == ("cmps", "density", "iccg")
+    assert (scheme.gradient, scheme.source, scheme.solver) == ("cmps", "density", "piccg")
     assert (scheme.stabiliser, scheme.laplacian_radius) == (("collision",), 3.1)
 
 

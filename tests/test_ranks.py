@@ -59,4 +59,4 @@ def test_particles_that_cross_several_slabs_at_once_arrive_and_ghosts_lie_beside
 
 def test_a_solver_for_one_rank_is_refused_on_two():
     with pytest.raises(AssertionError, match=r'scheme.solver = "iccg": runs on one rank only'):
-        start("steps", 2, {}, 1, DT)
+        start("steps", 2, {"scheme.solver": "iccg"}, 1, DT)
