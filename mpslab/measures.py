@@ -7,15 +7,14 @@ the water, breaking, where the energy went, and the wave at the gauges.
 import argparse
 import csv
 import sys
-import tomllib
 from pathlib import Path
 
 import numpy as np
 
 from mpslab import scatter, vtkhdf
-from mpslab.overturning import find_crest
+from mpslab.overturning import JET, find_crest
 from mpslab.particles import FLUID, WALL
-from mpslab.pictures import read_table
+from mpslab.pictures import read_case, read_table
 from mpslab.snapshots import middle_slice
 
 BAD_INPUT = 2
@@ -52,16 +51,6 @@ def measure(folder):
         raise ValueError(f"'{folder}': holds no particles.vtkhdf; allowed: the folder of a run")
     times = vtkhdf.read_times(path)
     return [_frame(time, vtkhdf.read_frame(path, i), case) for i, time in enumerate(times)]
-
-
-def read_case(folder):
-    """The resolved case of a run folder, a dict; ValueError if there is none."""
-    try:
-        return tomllib.loads((folder / "case.toml").read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise ValueError(
-            f"'{folder}': holds no case.toml that can be read; allowed: the folder of a run"
-        ) from error
 
 
 def _frame(time, frame, case):
@@ -166,7 +155,7 @@ def summary(rows, steps, gauges, period):
         values = [row[name] for row in settled if name in row]
         if values:
             lines.append(f"  {name}: {np.mean(values):.4g} +- {np.std(values):.2g}")
-    jets = [row for row in rows if row["jet"] >= 8]
+    jets = [row for row in rows if row["jet"] >= JET]
     if jets:
         lines.append(
             f"  overturns first at t = {jets[0]['time [s]']:.3f} s, "

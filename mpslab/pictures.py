@@ -47,7 +47,7 @@ def draw_run(folder):
         If the folder holds no case, or its frames cannot be read.
     """
     folder = Path(folder)
-    case = _read_case(folder / "case.toml")
+    case = read_case(folder)
     target = folder / "pictures"
     target.mkdir(exist_ok=True)
     drawn = []
@@ -78,11 +78,15 @@ def _figures(folder, case):
         yield "solver", draw_solver(steps, case)
 
 
-def _read_case(path):
+def read_case(folder):
+    """The resolved case of a run folder, a dict; ValueError if there is none."""
+    path = folder / "case.toml"
     try:
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        raise ValueError(f"'{path}': cannot be read as a case ({error})") from error
+        raise ValueError(
+            f"'{path}': cannot be read as a case ({error}); allowed: the folder of a run"
+        ) from error
 
 
 def read_table(path):

@@ -95,7 +95,7 @@ def test_piston_force_is_its_pressure_times_the_face_of_each_particle(dim, face)
 def test_folder_without_a_run_is_refused_in_one_line(tmp_path, capsys):
     assert measures.main([str(tmp_path)]) == 2
     error = capsys.readouterr().err
-    assert error.startswith(f"mpslab: '{tmp_path}'")
+    assert error.startswith(f"mpslab: '{tmp_path / 'case.toml'}'")
     assert "allowed: the folder of a run" in error
 
 
