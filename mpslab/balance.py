@@ -26,7 +26,7 @@ def cut(name, load, ranks):
     if not 1 <= ranks <= len(load):
         raise ValueError(
             f"ranks = {ranks}: must be from 1 to {len(load)}, the number of slabs of the tank "
-            "(each as wide as the influence radius)"
+            "(each two influence radii wide)"
         )
     return {"static": static, "centroid": centroid, "optimal": optimal}[name](load, ranks)
 

@@ -49,8 +49,7 @@ def measure(folder):
     path = folder / "particles.vtkhdf"
     if not path.exists():
         raise ValueError(f"'{folder}': holds no particles.vtkhdf; allowed: the folder of a run")
-    times = vtkhdf.read_times(path)
-    return [_frame(time, vtkhdf.read_frame(path, i), case) for i, time in enumerate(times)]
+    return [_frame(time, frame, case) for time, frame in vtkhdf.read_frames(path)]
 
 
 def _frame(time, frame, case):
