@@ -39,6 +39,7 @@ def _parser():
     parser.add_argument("--resume", metavar="DIR", help="go on with the run in this folder")
     parser.add_argument("--ranks", type=int, default=0, metavar="N",
                         help="share the tank out among N processes")  # fmt: skip
+    parser.add_argument("--no-pictures", action="store_true", help="draw no pictures at the end")
     parser.add_argument("--check", action="store_true", help="look at the case, run nothing")
     parser.add_argument("--list", action="store_true", help="list the built-in cases")
     parser.add_argument("--show", metavar="CASE", help="print the file of a built-in case")
@@ -90,7 +91,7 @@ def _dispatch(options, comm):
         tell(cases.text(options.show), end="")
         return 0
     if options.resume:
-        return _run(_resumed(options), options.until, tell)
+        return _run(_resumed(options), options, tell)
     changes = dict(cases.parse_set(item) for item in options.set)
     case = cases.load_case(options.case or DEFAULT_CASE, changes)
     _check_until(options.until, case)
@@ -101,7 +102,7 @@ def _dispatch(options, comm):
     for warning in report.warnings:
         tell(f"Warning: {warning}", file=sys.stderr)
     out = options.out or comm.bcast(_free_folder(case.name))
-    return _run(Simulation(case, out), options.until, tell)
+    return _run(Simulation(case, out), options, tell)
 
 
 def _silent(*words, **options):
@@ -136,9 +137,9 @@ def _free_folder(name):
     return folder
 
 
-def _run(simulation, until, tell):
+def _run(simulation, options, tell):
     folder = simulation.folder.path
-    until = simulation.case.time.end if until is None else until
+    until = simulation.case.time.end if options.until is None else options.until
     found = simulation.domain.from_all((len(simulation.particles), os.getpid()))
     sizes, processes = zip(*found, strict=True)
     # When a process is killed, mpiexec says which by its number.
@@ -165,7 +166,7 @@ def _run(simulation, until, tell):
     finally:
         for number, handler in earlier.items():
             signal.signal(number, handler)
-    return _report(simulation, tell)
+    return _report(simulation, options, tell)
 
 
 def _stop_on_signals(simulation):
@@ -177,7 +178,7 @@ def _stop_on_signals(simulation):
     return {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
 
 
-def _report(simulation, tell):
+def _report(simulation, options, tell):
     folder = simulation.folder.path
     _tell_cost(simulation, tell)
     if simulation.outcome == "interrupted":
@@ -185,9 +186,9 @@ def _report(simulation, tell):
              f"  python -m mpslab.tank --resume {folder}")  # fmt: skip
         return INTERRUPTED
     tell(f"Done: t = {simulation.time:.4f} s after {simulation.step} steps, "
-         f"{simulation.lost} particles lost. Results in {folder}, pictures:")  # fmt: skip
-    for picture in pictures.draw_run(folder) if tell is print else ():
-        tell(f"  {picture}")
+         f"{simulation.lost} particles lost. Results in {folder}")  # fmt: skip
+    if tell is print and not options.no_pictures:
+        tell("Pictures:", *pictures.draw_run(folder), sep="\n  ")
     return 0
 
 

@@ -1,0 +1,181 @@
+"""The validation suite: its cases are complete, its verdicts right, its runs are kept."""
+
+import json
+
+import numpy as np
+import pytest
+
+from validation import __main__ as command
+from validation import judge, result, suite
+from validation.comparison import Comparison
+from validation.suite import Criterion, PlannedRun
+from validation.wave_analysis import decay, harmonics
+from validation.work import Outcome, Task, Work, fingerprint
+
+TINY = {"particles.spacing": 0.008, "time.end": 0.02}
+
+
+@pytest.mark.parametrize("name", suite.names())
+def test_a_case_of_the_suite_is_whole(name):
+    case = suite.load(name)
+    assert case.question.endswith("?")
+    assert callable(case.compare)
+    assert len({run.name for run in case.runs}) == len(case.runs)
+    for run in case.runs:
+        assert set(run.suites) <= set(suite.SUITES)
+        assert run.resolved.time.end > 0.0
+    for criterion in case.criteria:
+        assert criterion.low is not None or criterion.high is not None
+        assert criterion.reason.endswith((".", ")"))
+        assert set(criterion.suites) <= set(suite.SUITES)
+
+
+def test_known_misses_name_criteria_that_there_are():
+    known = judge.known_misses()
+    for name, entries in known.items():
+        criteria = {criterion.id: criterion for criterion in suite.load(name).criteria}
+        for id_, entry in entries.items():
+            assert set(entry["suites"]) <= set(criteria[id_].suites)
+            assert entry["cause"]
+
+
+def test_an_unknown_case_is_refused_with_the_nearest():
+    with pytest.raises(ValueError, match=r"must be one of .*did you mean still_wa"):
+        suite.load("still")
+
+
+@pytest.mark.parametrize(
+    "value, low, high, met",
+    [(1.0, 0.0, 1.0, True), (1.1, 0.0, 1.0, False), (-0.1, 0.0, None, False),
+     (9.0, 0.0, None, True), (np.nan, None, 1.0, False), (np.inf, 0.0, None, True),
+     (-5.0, None, 1.0, True)],
+)  # fmt: skip
+def test_a_value_is_held_against_its_band(value, low, high, met):
+    assert Criterion("a", "A", "because.", "", low, high).met(value) is met
+
+
+MADE = suite.ValidationCase(
+    "made", "Made", "Is it?", 1, "", (), (Criterion("a", "A", "because.", "", 0.0, 1.0),)
+)
+
+
+def judged(value, known=None):
+    metrics = judge.judge(MADE, "quick", {"a": value}, known or {})
+    return [{"case": "made", "metrics": metrics}]
+
+
+KNOWN = {"made": {"a": {"suites": ["quick"], "value": 2.0, "cause": "the piston leaks"}}}
+
+
+def test_a_miss_that_is_not_known_is_a_surprise():
+    assert judge.misses(judged(2.0))
+    assert "made.a is missed" in judge.unexpected(judged(2.0))[0]
+
+
+def test_a_known_miss_is_a_miss_and_no_surprise():
+    assert judge.misses(judged(2.0, KNOWN))
+    assert not judge.unexpected(judged(2.0, KNOWN))
+
+
+def test_a_known_miss_that_has_healed_is_a_surprise():
+    assert "take it off" in judge.unexpected(judged(0.5, KNOWN))[0]
+
+
+def test_what_was_measured_must_have_a_criterion_and_the_other_way_round():
+    with pytest.raises(ValueError, match=r"measured .* but criteria"):
+        judge.judge(MADE, "quick", {"b": 1.0}, {})
+
+
+def test_an_order_of_convergence_comes_back():
+    spacing = np.array([4.0, 2.0, 1.0])
+    assert np.isclose(Comparison().converge("error", spacing, -0.1 * spacing**1.5), 1.5)
+
+
+def test_a_series_leaves_out_what_is_not_a_number_and_stays_short():
+    figure = Comparison().figure("A", "x", "y")
+    y = np.arange(5000.0)
+    y[0] = np.nan
+    figure.line("a", np.arange(5000.0), y)
+    (series,) = figure.series
+    assert len(series["x"]) == len(series["y"]) <= 800
+    assert series["x"][0] == 1.0
+    assert json.loads(json.dumps(series)) == series
+
+
+def test_harmonics_of_a_known_wave_come_back():
+    time = np.linspace(0.0, 5.0, 4000)
+    level = 0.1 + 0.02 * np.cos(2 * np.pi * time / 0.5 - 0.3) + 0.004 * np.sin(8 * np.pi * time)
+    found = harmonics(time, level, 0.5, 1.0, 3)
+    assert np.isclose(found[0].real, 0.1)
+    assert np.isclose(found[1], 0.02 * np.exp(-0.3j))
+    assert np.isclose(abs(found[2]), 0.004)
+    assert np.isnan(harmonics(time, level, 0.5, 4.0, 3)).all()
+
+
+def test_a_known_decay_comes_back():
+    x = np.linspace(0.0, 3.0, 7)
+    assert np.allclose(decay(x, 0.02 * np.exp(-0.3 * x)), (0.3, 0.02))
+
+
+def plan(name="tiny", changes=TINY, **more):
+    return PlannedRun(name, "hydrostatic", changes, ("quick",), **more)
+
+
+def test_a_finished_run_is_kept_and_another_case_is_not(tmp_path):
+    task = Task("made", plan(), tmp_path / "made" / "tiny")
+    work = Work(1)
+    assert [o.outcome for o in work.do([task])] == ["finished"]
+    written = (task.folder / "steps.csv").stat().st_mtime_ns
+    assert [o.outcome for o in work.do([task])] == ["finished"]
+    assert (task.folder / "steps.csv").stat().st_mtime_ns == written
+    other = Task("made", plan(changes={**TINY, "particles.seed": 1}), task.folder)
+    assert fingerprint(other.plan.resolved) != fingerprint(task.plan.resolved)
+    assert [o.outcome for o in work.do([other])] == ["finished"]
+    assert (task.folder / "steps.csv").stat().st_mtime_ns != written
+
+
+def test_an_interrupted_run_goes_on_from_its_checkpoint(tmp_path, monkeypatch):
+    task = Task("made", plan(changes={**TINY, "time.end": 0.5, "output.checkpoint": 0.01}),
+                tmp_path / "made" / "tiny")  # fmt: skip
+    work = Work(1)
+
+    def stop():
+        if (task.folder / "checkpoint.h5").exists():
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        list(work.do([task], stop))
+    assert json.loads(task.record.read_text())["outcome"] == "interrupted"
+    assert [o.outcome for o in Work(1).do([task])] == ["finished"]
+    assert json.loads((task.folder / "run.json").read_text())["resumed"] == 1
+
+
+def test_a_run_that_goes_wrong_says_why(tmp_path):
+    bad = plan(changes={**TINY, "scheme.max_iterations": 1})
+    (outcome,) = Work(1).do([Task("made", bad, tmp_path / "made" / "bad")])
+    assert outcome.outcome == "failed"
+    assert "iteration" in outcome.reason
+
+
+def test_a_failed_run_makes_all_criteria_of_its_case_misses(tmp_path):
+    task = Task("still_water", plan("box"), tmp_path / "made" / "tiny")
+    list(Work(1).do([task]))
+    failed = [Outcome(task, "failed", "the water boiled")]
+    found, _ = result.make(suite.load("still_water"), "quick", failed, {})
+    assert not any(metric["passed"] for metric in found["metrics"])
+    assert "Run box failed: the water boiled" in found["notes"]
+
+
+def test_the_command_lists_the_cases(capsys):
+    assert command.main(["--list"]) == 0
+    assert "Standing wave" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "arguments, message",
+    [(["nonsense"], "case = 'nonsense': must be one of"), (["--ranks", "0"], "--ranks 0: must be"),
+     (["--jobs", "-1"], "--jobs -1: must be")],
+)  # fmt: skip
+def test_bad_input_is_refused_in_one_line(capsys, arguments, message):
+    assert command.main(arguments) == 2
+    assert message in capsys.readouterr().err

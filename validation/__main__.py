@@ -1,0 +1,143 @@
+"""The command line: ``python -m validation``."""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from validation import judge, report, result, suite
+from validation.display import make_display
+from validation.work import Task, Work
+
+DONE, MISSED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="python -m validation",
+        description="Hold mpslab against theory and experiment, and write a report.",
+    )
+    parser.add_argument("case", nargs="*", metavar="CASE", help="cases to look at; all if left out")
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--quick", dest="suite", action="store_const", const="quick",
+                       default="quick", help="minutes (the default)")  # fmt: skip
+    which.add_argument("--full", dest="suite", action="store_const", const="full",
+                       help="hours, for a release")  # fmt: skip
+    parser.add_argument("--ranks", type=int, default=1, metavar="N", help="processes of each run")
+    parser.add_argument("--jobs", type=int, default=0, metavar="N",
+                        help="runs at a time; left out, as many as there are cores")  # fmt: skip
+    parser.add_argument("--out", type=Path, metavar="DIR",
+                        help="folder of the results; what has finished in it is kept")  # fmt: skip
+    parser.add_argument("--known", action="store_true",
+                        help="fail only where it differs from known_misses.toml")  # fmt: skip
+    parser.add_argument("--list", action="store_true", help="list the cases")
+    return parser
+
+
+def main(arguments=None):
+    """Run the command line; returns the exit status.
+
+    0: all criteria met (with --known: just the known ones missed); 1: not; 2: bad input; 130:
+    stopped by Ctrl-C, what has finished is kept.
+    """
+    options = _parser().parse_args(arguments)
+    try:
+        cases = _chosen(options)
+    except ValueError as error:
+        print(f"validation: {error}", file=sys.stderr)
+        return BAD_INPUT
+    if options.list:
+        for case in cases:
+            print(f"{case.name:<18} {case.title}")
+        return DONE
+    out = options.out or Path("runs") / "validation" / options.suite
+    out.mkdir(parents=True, exist_ok=True)
+    jobs = options.jobs or max(os.cpu_count() // options.ranks, 1)
+    try:
+        results = run(cases, options.suite, out, Work(jobs, options.ranks))
+    except KeyboardInterrupt:
+        print(f"Stopped; the same command with --out {out} goes on.", file=sys.stderr)
+        return INTERRUPTED
+    for path in report.write(results, out):
+        print(f"Report: {path}")
+    return _verdict(results, options.known)
+
+
+def _chosen(options):
+    for name in ("ranks", "jobs"):
+        least, value = (1 if name == "ranks" else 0), getattr(options, name)
+        if value < least:
+            raise ValueError(f"--{name} {value}: must be a whole number >= {least}")
+    cases = [suite.load(name) for name in options.case] or suite.load_all()
+    return [case for case in cases if options.list or case.in_suite(options.suite)]
+
+
+def run(cases, which, out, work):
+    """Run a suite, and compare each case as soon as its last run has ended.
+
+    Parameters
+    ----------
+    cases : list of validation.suite.ValidationCase
+    which : str
+        "quick" or "full".
+    out : Path
+        A JSON file for each case goes here, the runs into ``runs``.
+    work : validation.work.Work
+
+    Returns
+    -------
+    list of dict
+        The results, in the order of the cases.
+    """
+    known = judge.known_misses()
+    tasks = {
+        case.name: [Task(case.name, plan, out / "runs" / case.name / plan.name)
+                    for plan in case.runs_of(which)]
+        for case in cases
+    }  # fmt: skip
+    ended = {case.name: {} for case in cases}
+    results = {}
+
+    def look(case):
+        if case.name not in results and len(ended[case.name]) == len(tasks[case.name]):
+            outcomes = [ended[case.name][task.plan.name] for task in tasks[case.name]]
+            found, pictures = result.make(case, which, outcomes, known)
+            result.write(out, found, pictures)
+            results[case.name] = found
+            print(_line(found), flush=True)
+
+    everything = [task for several in tasks.values() for task in several]
+    with make_display(everything) as display:
+        for case in cases:
+            look(case)
+        for outcome in work.do(everything, display):
+            display.end(outcome.task)
+            ended[outcome.task.case][outcome.task.plan.name] = outcome
+            for case in cases:
+                look(case)
+    return [results[case.name] for case in cases]
+
+
+def _line(found):
+    metrics = found["metrics"]
+    met = sum(metric["passed"] for metric in metrics)
+    return f"{found['title']}: {met} of {len(metrics)} criteria met"
+
+
+def _verdict(results, against_known):
+    missed = judge.misses(results)
+    for case, metric in missed:
+        cause = f" (known: {metric['known']})" if metric["known"] else ""
+        print(f"Missed: {case}.{metric['id']} = {metric['value']}, allowed "
+              f"{metric['low']} to {metric['high']} {metric['unit']}{cause}")  # fmt: skip
+    count = sum(len(found["metrics"]) for found in results)
+    print(f"{count - len(missed)} of {count} criteria met")
+    if not against_known:
+        return MISSED if missed else DONE
+    surprises = judge.unexpected(results)
+    print("\n".join(surprises) or "Nothing but the known misses.")
+    return MISSED if surprises else DONE
+
+
+if __name__ == "__main__":
+    sys.exit(main())

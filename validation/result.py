@@ -1,0 +1,107 @@
+"""The result of a case: a JSON file that the report is drawn from, and pictures beside it."""
+
+import json
+import shutil
+import traceback
+from datetime import UTC, datetime
+
+import numpy as np
+
+from mpslab.files import replacing
+from mpslab.provenance import environment
+from validation.comparison import Comparison, Figure
+from validation.judge import judge
+from validation.run import Run
+
+
+def compare(case, suite, outcomes):
+    """What a case finds in its runs.
+
+    Parameters
+    ----------
+    case : validation.suite.ValidationCase
+    suite : str
+    outcomes : list of validation.work.Outcome
+
+    Returns
+    -------
+    Comparison
+        With no values, and a note that says why, where a run failed that has to end well, or
+        where the comparison itself did.
+    """
+    failed = [o for o in outcomes if o.outcome != "finished" and not o.task.plan.may_fail]
+    why = [f"Run {o.task.plan.name} {o.outcome}: {o.reason}" for o in failed]
+    if not failed:
+        try:
+            return case.compare({o.task.plan.name: Run(o.task.folder) for o in outcomes})
+        except Exception:
+            traceback.print_exc()
+            why = [f"The comparison failed: {traceback.format_exc().splitlines()[-1]}"]
+    nothing = {criterion.id: np.nan for criterion in case.criteria_of(suite)}
+    return Comparison(measured=nothing, notes=why)
+
+
+def make(case, suite, outcomes, known):
+    """The JSON object of a case (see ``validation/README.md``), and the pictures that go with it.
+
+    Returns
+    -------
+    dict, dict of str to Path
+        The object, and by the names in it the files of its pictures.
+    """
+    found = compare(case, suite, outcomes)
+    pictures = {}
+    figures = [_figure(case, figure, pictures) for figure in found.figures]
+    runs = [_run(outcome) for outcome in outcomes]
+    result = {
+        "case": case.name,
+        "title": case.title,
+        "question": case.question,
+        "order": case.order,
+        "suite": suite,
+        "readme": case.readme,
+        "runs": runs,
+        "metrics": judge(case, suite, found.measured, known),
+        "figures": figures,
+        "tables": found.tables,
+        "convergence": found.convergence,
+        "notes": found.notes,
+        "provenance": {
+            **environment(),
+            "date": datetime.now(UTC).isoformat(timespec="seconds"),
+            "seconds": sum(run["seconds"] for run in runs),
+        },
+    }
+    return result, pictures
+
+
+def _figure(case, figure, pictures):
+    """A figure as the JSON file holds it; the file of a picture goes into `pictures`."""
+    if isinstance(figure, Figure):
+        return vars(figure)
+    name = f"{case.name}-{figure['picture'].name}"
+    pictures[name] = figure["picture"]
+    return {**figure, "picture": name}
+
+
+def _run(outcome):
+    plan, run = outcome.task.plan, Run(outcome.task.folder)
+    record = run.record
+    return {
+        "name": plan.name,
+        "case": plan.resolved.name,
+        "changes": plan.changes,
+        "particles": sum(record["particles"].values()),
+        "steps": len(run.steps["step"]),
+        "seconds": record["wall_time [s]"],
+        "outcome": outcome.outcome,
+        "reason": outcome.reason,
+    }
+
+
+def write(out, result, pictures):
+    """Write the JSON file of a case, and copy its pictures beside it."""
+    for name, picture in pictures.items():
+        shutil.copyfile(picture, out / name)
+    with replacing(out / f"{result['case']}.json") as draft:
+        draft.write_text(json.dumps(result, indent=1), encoding="utf-8")

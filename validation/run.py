@@ -1,0 +1,81 @@
+"""A finished run, as a case sees it."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from mpslab import vtkhdf
+from mpslab.particles import FLUID
+from mpslab.pictures import read_case, read_table
+
+
+class Run:
+    """Reads the folder of a run.
+
+    Attributes
+    ----------
+    folder : Path
+    case : dict
+        The resolved case, tables of keys.
+    """
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        self.case = read_case(self.folder)
+
+    @property
+    def spacing(self):
+        """Particle spacing [m]."""
+        return self.case["particles"]["spacing"]
+
+    @property
+    def depth(self):
+        """Depth of the still water [m]."""
+        return self.case["tank"]["depth"]
+
+    @property
+    def gravity(self):
+        """Acceleration of gravity [m/s2]."""
+        return self.case["fluid"]["gravity"]
+
+    @property
+    def density(self):
+        """Density of the water [kg/m3]."""
+        return self.case["fluid"]["density"]
+
+    @property
+    def steps(self):
+        """Columns of ``steps.csv`` by their headings."""
+        return read_table(self.folder / "steps.csv")
+
+    @property
+    def record(self):
+        """``run.json``, a dict."""
+        return json.loads((self.folder / "run.json").read_text(encoding="utf-8"))
+
+    def gauge(self, name):
+        """Time [s] and water level [m] of a gauge, (n,) each."""
+        table = read_table(self.folder / "gauges.csv")
+        return table["time [s]"], table[f"{name} [m]"]
+
+    def pressure(self, name):
+        """Time [s] and pressure [Pa] of a probe, (n,) each."""
+        table = read_table(self.folder / "probes.csv")
+        return table["time [s]"], table[f"{name} pressure [Pa]"]
+
+    def frames(self):
+        """Time [s] and arrays of each frame of particles, one after the other."""
+        return vtkhdf.read_frames(self.folder / "particles.vtkhdf")
+
+    def water(self):
+        """Time [s], position (n, 3) [m] and velocity (n, 3) [m/s] of the water, frame by frame."""
+        for time, frame in self.frames():
+            wet = frame["kind"] == FLUID
+            yield time, frame["position"][wet].astype(float), frame["velocity"][wet].astype(float)
+
+    def frame_at(self, time):
+        """The frame next to a time [s]: its time and arrays."""
+        times = vtkhdf.read_times(self.folder / "particles.vtkhdf")
+        index = int(np.argmin(np.abs(times - time)))
+        return times[index], vtkhdf.read_frame(self.folder / "particles.vtkhdf", index)
