@@ -4,12 +4,13 @@ PYTHON ?= python3
 BIN := .venv/bin
 SOURCES := $(shell find mpslab -name '*.pyx' -o -name '*.pxd') setup.py pyproject.toml
 
-.PHONY: help tank test test-checked lint clean
+.PHONY: help tank test test-checked validation lint clean
 
 help:
 	@echo "make tank   build mpslab and run the plunging breaker; pictures land in runs/"
 	@echo "make test   build mpslab and run its tests"
 	@echo "make test-checked   the unit tests again, every array index in the kernels checked"
+	@echo "make validation     the quick validation suite; its report lands in runs/validation/quick"
 	@echo "make lint   check the style of the code"
 	@echo "make clean  remove what was built (results in runs/ stay)"
 
@@ -19,10 +20,15 @@ tank: .venv/built
 test: .venv/tested lint
 	$(BIN)/python -m pytest
 
-# The slow paths of physics and of whole runs say nothing about array indices.
+# The slow paths of physics and of whole runs say nothing about array indices, nor does the report.
+WHOLE_RUNS := $(addprefix --ignore=tests/test_,parallel.py validation.py validation_catches.py \
+                validation_report.py)
 test-checked: .venv/tested
 	MPSLAB_CHECKED=1 $(BIN)/python -m pip install -q --no-deps --upgrade --target build/checked .
-	PYTHONPATH=build/checked $(BIN)/pytest -m "not slow"
+	PYTHONPATH=build/checked $(BIN)/pytest -m "not slow" $(WHOLE_RUNS)
+
+validation: .venv/tested
+	$(BIN)/python -m validation
 
 lint: .venv/tested
 	$(BIN)/ruff check .

@@ -7,6 +7,7 @@ from datetime import UTC, datetime
 
 import numpy as np
 
+from mpslab import measures
 from mpslab.files import replacing
 from mpslab.provenance import environment
 from validation.comparison import Comparison, Figure
@@ -63,7 +64,7 @@ def make(case, suite, outcomes, known):
         "runs": runs,
         "metrics": judge(case, suite, found.measured, known),
         "figures": figures,
-        "tables": found.tables,
+        "tables": [*found.tables, *ledger(outcomes)],
         "convergence": found.convergence,
         "notes": found.notes,
         "provenance": {
@@ -82,6 +83,22 @@ def _figure(case, figure, pictures):
     name = f"{case.name}-{figure['picture'].name}"
     pictures[name] = figure["picture"]
     return {**figure, "picture": name}
+
+
+def ledger(outcomes):
+    """Table of what became of water and energy in the runs; none where there are no runs."""
+    rows = []
+    for outcome in outcomes:
+        steps = Run(outcome.task.folder).steps
+        if steps:
+            books, volume = measures.ledger(steps), steps["volume [m3]"]
+            change = 100.0 * (volume[-1] / volume[0] - 1.0)
+            rows.append([outcome.task.plan.name, *books.values(), change, steps["lost"][-1]])
+    columns = ["run", "work of the piston [J]", "kinetic energy gained [J]",
+               "potential energy gained [J]", "dissipated [J]", "volume gained [%]",
+               "particles lost"]  # fmt: skip
+    title = "Ledger (energy in 2-D of a slice 1 m wide)"
+    return [{"title": title, "columns": columns, "rows": rows}] if rows else []
 
 
 def _run(outcome):

@@ -33,12 +33,21 @@ class Task:
     @property
     def log(self):
         """File of what the run printed."""
-        return self.folder.with_suffix(".log")
+        return self._beside(".log")
 
     @property
     def record(self):
         """File of what is known of the run."""
-        return self.folder.with_suffix(".json")
+        return self._beside(".json")
+
+    @property
+    def file(self):
+        """File of its case."""
+        return self._beside(".toml")
+
+    def _beside(self, ending):
+        """A file beside the folder; the name of a run may hold dots."""
+        return self.folder.with_name(self.folder.name + ending)
 
     @property
     def done(self):
@@ -78,6 +87,8 @@ class Work:
         Ctrl-C stops the runs after the step in hand, with a checkpoint, and is raised again.
         """
         tasks = sorted(tasks, key=lambda task: -task.plan.weight)
+        for task in tasks:
+            task.log.unlink(missing_ok=True)
         with ThreadPoolExecutor(self.jobs) as pool:
             waiting = {pool.submit(self.run, task) for task in tasks}
             try:
@@ -107,9 +118,8 @@ class Work:
         else:
             shutil.rmtree(task.folder, ignore_errors=True)
             task.folder.parent.mkdir(parents=True, exist_ok=True)
-            file = task.folder.with_suffix(".toml")
-            file.write_text(dumps(task.plan.resolved), encoding="utf-8")
-            arguments = [str(file), "--out", str(task.folder)]
+            task.file.write_text(dumps(task.plan.resolved), encoding="utf-8")
+            arguments = [str(task.file), "--out", str(task.folder)]
         _write(task.record, fingerprint=mark, outcome="running")
         outcome = self._simulate(task, arguments)
         _write(task.record, fingerprint=mark, outcome=outcome.outcome)

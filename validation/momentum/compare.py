@@ -1,0 +1,150 @@
+"""Momentum: forces between free particles, a drop that elongates, a square that spins."""
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from mpslab import correction, plugins
+from mpslab.neighbors import NeighborList
+from mpslab.particles import FLUID, make_particles
+from mpslab.stencil import make_stencil
+from validation.comparison import Comparison
+
+GRADIENTS = ("corrected", "gc", "mps", "symmetric", "cmps")
+RADIUS = 2.1  # [spacings]
+MOMENT = 1.0  # of rate times time, at which the drop is held against theory
+
+
+def compare(runs):
+    """Forces of each gradient, and the ledgers of drop and square."""
+    result = Comparison()
+    _compare_forces(result)
+    _compare_drop(result, {n: r for n, r in runs.items() if n.startswith("drop")})
+    _compare_square(result, runs["square"])
+    return result
+
+
+def _compare_forces(result):
+    rows = []
+    for name in GRADIENTS:
+        linear, angular = _forces(name)
+        rows.append([name, linear, angular])
+        if name == "corrected":
+            result.measure("linear", linear)
+        if name == "cmps":
+            result.measure("linear_cmps", linear)
+            result.measure("angular_cmps", angular)
+    columns = ["gradient", "sum of forces / sum of their sizes", "the same of moments"]
+    result.table("Pressure forces on a free blob of disordered water", columns, rows)
+
+
+def _forces(name):
+    """Sum of the pressure forces over the sum of their sizes, and the same of their moments."""
+    random = np.random.default_rng(7)
+    grid = np.stack(np.meshgrid(*[np.arange(16.0)] * 2), axis=-1).reshape(-1, 2)
+    x = np.zeros((len(grid), 3))
+    x[:, [0, 2]] = grid + random.uniform(-0.2, 0.2, grid.shape)
+    x = x[np.linalg.norm(x - x.mean(axis=0), axis=1) < 7.0]
+    particles = make_particles(x, np.full(len(x), FLUID, np.int8))
+    pressure = random.uniform(0.0, 1.0, len(x))
+    stencil, found = make_stencil(2, 1.0, RADIUS), NeighborList()
+    found.build(particles.position, RADIUS, 0.0, particles.fluid)
+    matrices = correction.matrices(particles, found, stencil)
+    force = np.zeros((len(x), 3))
+    plugins.load("gradients", name).gradient(
+        particles.position, pressure, particles.kind, found.indptr, found.indices, stencil,
+        matrices, force,
+    )  # fmt: skip
+    arm = x - x.mean(axis=0)
+    moment = np.cross(arm, force)[:, 1]
+    sizes = np.linalg.norm(force, axis=1)
+    linear = np.linalg.norm(force.sum(axis=0)) / sizes.sum()
+    angular = abs(moment.sum()) / (np.linalg.norm(arm, axis=1) * sizes).sum()
+    return linear, angular
+
+
+def _compare_drop(result, runs):
+    figure = result.figure("Semi-axes of the drop", "rate x time", "semi-axis / radius at rest")
+    rows, errors = [], []
+    for name, run in runs.items():
+        rate = run.case["initial"]["rate"]
+        body = _Body(run)
+        time, long, short = rate * body.time, *body.axes()
+        exact = _ellipse(time)
+        at = np.argmin(np.abs(time - MOMENT))
+        error = max(abs(long[at] / exact[0][at] - 1.0), abs(short[at] / exact[1][at] - 1.0))
+        errors.append(error)
+        figure.line(f"d0 = {1e3 * run.spacing:.3g} mm, along x", time, long)
+        figure.line(f"d0 = {1e3 * run.spacing:.3g} mm, along z", time, short)
+        rows.append([name, 100.0 * error, 100.0 * (body.energy[at] / body.energy[0] - 1.0),
+                     body.drift(at), body.turn(at)])  # fmt: skip
+    figure.dashed("theory", time, exact[0])
+    figure.dashed("theory", time, exact[1])
+    result.measure("drop", rows[-1][1])
+    result.measure("drop_energy", rows[-1][2])
+    result.measure("drop_momentum", rows[-1][3])
+    if len(runs) > 2:
+        spacings = [run.spacing for run in runs.values()]
+        result.measure("drop_order", result.converge("Semi-axes of the drop", spacings, errors))
+    columns = ["run", "worst semi-axis [%]", "energy [%]", "linear momentum", "angular momentum"]
+    result.table("Elongating drop at rate x time = 1 (momentum over sum of m |u|, m |r| |u|)",
+                 columns, rows)  # fmt: skip
+
+
+def _ellipse(time):
+    """Semi-axes of a drop of radius 1 that elongates at the rate 1, no force: (n,) each.
+
+    da/dt = s a, db/dt = -s b, ds/dt = s^2 (b^2 - a^2)/(a^2 + b^2).
+    """
+
+    def rates(_, state):
+        s, a, b = state
+        return s**2 * (b**2 - a**2) / (a**2 + b**2), s * a, -s * b
+
+    found = solve_ivp(rates, (0.0, time[-1]), (1.0, 1.0, 1.0), t_eval=time, rtol=1e-9, atol=1e-12)
+    return found.y[1], found.y[2]
+
+
+def _compare_square(result, run):
+    rate, body = run.case["initial"]["rate"], _Body(run)
+    time = rate * body.time
+    figure = result.figure("Square that spins", "rate x time", "of the start")
+    figure.line("kinetic energy", time, body.energy / body.energy[0])
+    turn = np.array([body.spin(k) for k in range(len(time))])
+    figure.line("angular momentum", time, turn / turn[0])
+    result.measure("square_energy", 100.0 * (body.energy[-1] / body.energy[0] - 1.0))
+    result.measure("square_spin", 100.0 * (turn[-1] / turn[0] - 1.0))
+    for share in (0.5, 1.0):
+        k = round(share * (len(time) - 1))
+        shape = result.figure(
+            f"Square at rate x time = {time[k]:.2g}", "x [m]", "z [m]", equal=True
+        )
+        shape.points("water", body.x[k][:, 0], body.x[k][:, 2])
+
+
+class _Body:
+    """A free body of water, frame by frame."""
+
+    def __init__(self, run):
+        frames = list(run.water())
+        self.time = np.array([time for time, _, _ in frames])
+        self.x = [x - x.mean(axis=0) for _, x, _ in frames]
+        self.u = [u for _, _, u in frames]
+        self.energy = np.array([np.sum(u**2) for u in self.u])
+
+    def axes(self):
+        """Semi-axes along x and z over the radius of the start, from the second moments."""
+        moments = np.array([np.sqrt(np.mean(x**2, axis=0)) for x in self.x])
+        return moments[:, 0] / moments[0, 0], moments[:, 2] / moments[0, 2]
+
+    def drift(self, k):
+        """Sum of u over the sum of |u| in a frame."""
+        return np.linalg.norm(self.u[k].sum(axis=0)) / np.linalg.norm(self.u[k], axis=1).sum()
+
+    def spin(self, k):
+        """Sum of r x u in a frame, about the centre."""
+        return np.cross(self.x[k], self.u[k])[:, 1].sum()
+
+    def turn(self, k):
+        """The same over the sum of |r| |u|."""
+        sizes = np.linalg.norm(self.x[k], axis=1) * np.linalg.norm(self.u[k], axis=1)
+        return abs(self.spin(k)) / sizes.sum()
