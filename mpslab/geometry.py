@@ -1,4 +1,4 @@
-"""Initial particles of a case: water, bed, end walls, piston, side walls.
+"""Initial particles of a case: water, bed, end walls, piston, side walls, obstacles.
 
 The cross-section (x, z) is laid out first and then repeated across the tank.  Water particles
 stand half a spacing off every boundary, wall particles half a spacing behind it.
@@ -8,9 +8,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from mpslab import bed as beds
+from mpslab import obstacles
 from mpslab.particles import DUMMY, FLUID, PISTON, PISTON_DUMMY, WALL, make_particles
-
-CLOSEST = 0.7  # spacings: a wall particle nearer to the bed layers than this is left out
 
 
 def effective_length(case):
@@ -57,12 +56,22 @@ def build_particles(case, backmost=0.0):
     water = _water_section(case)
     solid, kind = _solid_section(case, backmost)
     position, kinds = _repeat_across(case, water, solid, kind, backmost)
+    if case.obstacle:
+        position, kinds = _with_obstacles(case, position, kinds)
     position[kinds == FLUID] += _jitter(case, np.count_nonzero(kinds == FLUID))
     cell = np.floor(position / spacing + 1e-6)
     order = np.lexsort((position[:, 2], cell[:, 1], cell[:, 0]))
     particles = make_particles(position[order], kinds[order])
     _set_hydrostatic(case, particles)
+    if case.obstacle:
+        obstacles.press(case, particles)
     return particles
+
+
+def _with_obstacles(case, position, kinds):
+    obstacles.cover(case, position, kinds)
+    body, kind = obstacles.fill(case, position[kinds != FLUID])
+    return np.vstack([position, body]), np.concatenate([kinds, kind])
 
 
 def _jitter(case, n):
@@ -95,12 +104,15 @@ def _stack(case, x, bottom, top):
     return np.column_stack([np.full(n, x), first + np.arange(n) * spacing])
 
 
+def filled(case):
+    """Box of the water of a tank that is filled to its still depth, (start, end) [m]."""
+    return (0.0, 0.0, -np.inf), (effective_length(case), case.tank.width, case.tank.depth)
+
+
 def _water_section(case):
     """Water particles as (x, z, y from, y to) rows: boxes may fill a part of the width."""
-    width = case.tank.width
-    boxes = [(b.start, b.end) for b in case.water] or [
-        ((0.0, 0.0, -np.inf), (effective_length(case), width, case.tank.depth))
-    ]
+    boxes = [(b.start, b.end) for b in case.water] or [filled(case)]
+    boxes = [piece for box in boxes for piece in obstacles.around(case, *box)]
     rows, spacing = [], case.particles.spacing
     for start, end in boxes:
         sides = [round(start[1] / spacing) * spacing, round(end[1] / spacing) * spacing]
@@ -167,7 +179,7 @@ def _end_wall(case, floor, side):
         rows.append(stack)
         kinds.append(np.full(len(stack), DUMMY if k else WALL, np.int8))
     wall, kind = np.vstack(rows), np.concatenate(kinds)
-    free = cKDTree(floor).query(wall)[0] > CLOSEST * spacing
+    free = cKDTree(floor).query(wall)[0] > beds.CLOSEST * spacing
     return wall[free], kind[free]
 
 

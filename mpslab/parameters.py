@@ -56,8 +56,8 @@ class Fluid:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Water:
-    """A box of water at rest; where a case has none, the tank is filled to its still depth."""
+class Box:
+    """A box in the tank."""
 
     start: tuple = key(
         "corner [x, y, z] with the smallest coordinates; y does not count in 2-D",
@@ -72,6 +72,16 @@ class Water:
 
     def __post_init__(self):
         check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Water(Box):
+    """A box of water at rest; where a case has none, the tank is filled to its still depth."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Obstacle(Box):
+    """A solid box that stands in the tank."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -291,7 +301,7 @@ TABLES = {
     "parallel": Parallel,
     "output": Output,
 }
-LISTS = {"water": Water, "gauge": Gauge, "probe": Probe}
+LISTS = {"water": Water, "obstacle": Obstacle, "gauge": Gauge, "probe": Probe}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -310,6 +320,7 @@ class Case:
     parallel: Parallel = field(default_factory=Parallel)
     output: Output = field(default_factory=Output)
     water: tuple[Water, ...] = ()
+    obstacle: tuple[Obstacle, ...] = ()
     gauge: tuple[Gauge, ...] = ()
     probe: tuple[Probe, ...] = ()
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mpslab import bed as beds
-from mpslab import breaking, geometry, waves
+from mpslab import breaking, geometry, obstacles, waves
 from mpslab.cases.checks import warnings
 from mpslab.particles import KIND_NAMES
 from mpslab.piston import make_paddle
@@ -68,7 +68,26 @@ def _particles(case, particles):
         ("particles", f"{len(particles):,} ({kinds})"),
         ("spacing", f"{spacing * 1e3:g} mm, {case.tank.depth / spacing:.3g} over the depth"),
         ("tank in whole spacings", size),
+        *_obstacles(case),
     ]
+
+
+def _obstacles(case):
+    """Faces of the obstacles as they are laid out."""
+    axes = "xyz" if case.dim == 3 else "x z"
+    for i, (low, high) in enumerate(obstacles.blocks(case) * case.particles.spacing):
+        sides = [
+            f"{axis} {_face(low[k], axis)} to {_face(high[k], axis)}"
+            for k, axis in enumerate(axes)
+            if axis != " "
+        ]
+        yield f"obstacle.{i} in whole spacings", ", ".join(sides)
+
+
+def _face(place, axis):
+    if np.isfinite(place):
+        return f"{place:.4g} m"
+    return "bed" if axis == "z" else "wall"
 
 
 def _cost(case, n):

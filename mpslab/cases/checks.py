@@ -5,7 +5,10 @@ from itertools import combinations, pairwise
 from math import ceil
 from pathlib import Path
 
-from mpslab import plugins
+import numpy as np
+
+from mpslab import bed as beds
+from mpslab import geometry, obstacles, plugins
 from mpslab.cases.complete import largest_dt
 from mpslab.keys import CaseError, require_choice, shown, toml_name
 from mpslab.parameters import Case
@@ -27,7 +30,8 @@ def check(case: Case) -> None:
     _check_walls(case)
     _check_spacing(case)
     _check_width(case)
-    _check_boxes(case)
+    _check_water(case)
+    _check_obstacles(case)
     _check_motion(case)
     _check_time(case)
     for name in ("gauge", "probe"):
@@ -143,45 +147,64 @@ def _check_width(case):
     )
 
 
-def _check_boxes(case):
-    axes = (0, 1, 2) if case.dim == 3 else (0, 2)
-    limit = (case.tank.length, case.tank.width, case.tank.height)
+def _check_water(case):
     slack = ROUNDING * case.tank.length
-    spacing = case.particles.spacing
+    axes = (0, 1, 2) if case.dim == 3 else (0, 2)
     for i, box in enumerate(case.water):
-        _require(
-            all(box.end[k] <= limit[k] + slack for k in axes),
-            f"water.{i}.to",
-            box.end,
-            f"inside the tank, [x, y, z] <= {shown(limit)} m",
-        )
-        _require(
-            all(box.end[k] - box.start[k] >= spacing - slack for k in axes),
-            f"water.{i}.to",
-            box.end,
-            f"beyond 'from' = {shown(box.start)} by a spacing, {spacing:g} m, or there is no fluid",
-        )
-        bed = _lowest_bed(case.tank, box.start[0], box.end[0])
-        _require(
-            box.end[2] >= bed + spacing - slack,
-            f"water.{i}.to",
-            box.end,
-            f"above the bed by a spacing, z >= {bed + spacing:g} m, or there is no fluid",
-        )
-
-
+        _check_box(case, f"water.{i}.to", box, "there is no fluid")
     for i, j in combinations(range(len(case.water)), 2):
         a, b = case.water[i], case.water[j]
-        apart = any(
-            a.end[k] <= b.start[k] + slack or b.end[k] <= a.start[k] + slack for k in axes
-        )
+        apart = any(a.end[k] <= b.start[k] + slack or b.end[k] <= a.start[k] + slack for k in axes)
         rule = f"outside of the box water.{i}, or both overlap"
         _require(apart, f"water.{j}.from", b.start, rule)
 
 
-def _lowest_bed(tank, start, end):
-    inside = [z for x, z in tank.bed if start <= x <= end]
-    return min([*inside, float(tank.bed_height(start)), float(tank.bed_height(end))])
+def _check_box(case, key, box, lack):
+    axes = (0, 1, 2) if case.dim == 3 else (0, 2)
+    limit = (case.tank.length, case.tank.width, case.tank.height)
+    slack = ROUNDING * case.tank.length
+    spacing = case.particles.spacing
+    _require(
+        all(box.end[k] <= limit[k] + slack for k in axes),
+        key,
+        box.end,
+        f"inside the tank, [x, y, z] <= {shown(limit)} m",
+    )
+    _require(
+        all(box.end[k] - box.start[k] >= spacing - slack for k in axes),
+        key,
+        box.end,
+        f"beyond 'from' = {shown(box.start)} by a spacing, {spacing:g} m, or {lack}",
+    )
+    bed = beds.lowest(case.tank.bed, box.start[0], box.end[0])
+    _require(
+        box.end[2] >= bed + spacing - slack,
+        key,
+        box.end,
+        f"above the bed by a spacing, z >= {bed + spacing:g} m, or {lack}",
+    )
+
+
+def _check_obstacles(case):
+    spacing, least = case.particles.spacing, obstacles.least_thickness(case)
+    for i, box in enumerate(case.obstacle):
+        _check_box(case, f"obstacle.{i}.to", box, "it has no particles")
+    for i, (low, high) in enumerate(obstacles.blocks(case)):
+        for axis, thickness in zip("xyz", high - low, strict=True):
+            _require(
+                thickness >= least,
+                f"obstacle.{i}.to",
+                case.obstacle[i].end,
+                f"beyond 'from' = {shown(case.obstacle[i].start)} along {axis} by {least} spacings,"
+                f" {least * spacing:g} m, or water on one side presses through to the other",
+            )
+    boxes = [(box.start, box.end) for box in case.water] or [geometry.filled(case)]
+    _require(
+        not case.obstacle or any(obstacles.around(case, *box) for box in boxes),
+        "obstacle",
+        [[box.start, box.end] for box in case.obstacle],
+        "boxes that leave room for the water",
+    )
 
 
 def _check_motion(case):
@@ -241,6 +264,9 @@ def _check_instruments(case, kind):
             inside = bed - slack <= item.z <= tank.height + slack
             rule = f"from the bed, {bed:g} m, to tank.height = {tank.height:g} m"
             _require(inside, f"{where}.z", item.z, rule)
+            holder = obstacles.deep_inside(case, np.array([[item.x, item.y, item.z]]))[0]
+            rule = f"outside of obstacle.{holder}, or on one of its faces"
+            _require(holder < 0, where, [item.x, item.y, item.z], rule)
 
 
 def _wave_height(case):

@@ -16,7 +16,8 @@ def complete(case: Case) -> Case:
     return replace(
         case,
         tank=tank,
-        water=tuple(_flat_box(box) for box in case.water) if tank.width == 0.0 else case.water,
+        water=_boxes(case.water, tank),
+        obstacle=_boxes(case.obstacle, tank),
         particles=replace(case.particles, layers=case.particles.layers or least_layers(case)),
         time=_time(case),
         output=_output(case),
@@ -69,6 +70,10 @@ def _across(instrument, tank):
     return replace(
         instrument, y=middle if instrument.y is None or tank.width == 0.0 else instrument.y
     )
+
+
+def _boxes(boxes, tank):
+    return tuple(_flat_box(box) for box in boxes) if tank.width == 0.0 else boxes
 
 
 def _flat_box(box):
