@@ -111,16 +111,36 @@ def filled(case):
 
 def _water_section(case):
     """Water particles as (x, z, y from, y to) rows: boxes may fill a part of the width."""
-    boxes = [(b.start, b.end) for b in case.water] or [filled(case)]
-    boxes = [piece for box in boxes for piece in obstacles.around(case, *box)]
-    rows, spacing = [], case.particles.spacing
-    for start, end in boxes:
-        sides = [round(start[1] / spacing) * spacing, round(end[1] / spacing) * spacing]
-        for x in _columns(case, start[0], min(end[0], effective_length(case))):
-            stack = _stack(case, x, start[2], end[2])
+    rows = [np.zeros((0, 4))]
+    for water in case.water:
+        if water.shape == "disc":
+            rows.append(_disc(case, water))
+        else:
+            rows.append(_box(case, water.start, water.end))
+    return np.vstack(rows) if case.water else _box(case, *filled(case))
+
+
+def _box(case, start, end):
+    """Rows of the section for a box of water, less what obstacles take of it, (n, 4) [m]."""
+    rows, spacing = [np.zeros((0, 4))], case.particles.spacing
+    for low, high in obstacles.around(case, start, end):
+        sides = [round(low[1] / spacing) * spacing, round(high[1] / spacing) * spacing]
+        for x in _columns(case, low[0], min(high[0], effective_length(case))):
+            stack = _stack(case, x, low[2], high[2])
             across = np.broadcast_to(sides, (len(stack), 2))
             rows.append(np.hstack([stack, across]))
-    return np.vstack(rows) if rows else np.zeros((0, 4))
+    return np.vstack(rows)
+
+
+def _disc(case, water):
+    """Rows of the section for the disc in a box: those of the lattice with their centre inside."""
+    spacing = case.particles.spacing
+    (x0, y0, z0), (x1, _, z1) = water.start, water.end
+    whole = np.round(z0 / spacing) * spacing
+    rows = _box(case, (x0, y0, whole), water.end)
+    across = (rows[:, 0] - 0.5 * (x0 + x1)) / (0.5 * (x1 - x0))
+    up = (rows[:, 1] - 0.5 * (z0 + z1)) / (0.5 * (z1 - z0))
+    return rows[across**2 + up**2 <= 1.0 + 1e-9]
 
 
 def _solid_section(case, backmost):
@@ -239,3 +259,6 @@ def _set_hydrostatic(case, particles):
     depth = np.maximum(top[column] - particles.position[:, 2], 0.0)
     weight = case.fluid.density * case.fluid.gravity
     particles.pressure[:] = np.where(particles.carries_pressure, weight * depth, 0.0)
+    if case.water:  # which may float above the bed
+        off = cKDTree(particles.position[fluid]).query(particles.position)[0]
+        particles.pressure[off > obstacles.NEAR * spacing] = 0.0

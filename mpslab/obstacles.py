@@ -13,7 +13,7 @@ from scipy.spatial import cKDTree
 from mpslab import bed as beds
 from mpslab.particles import DUMMY, WALL
 
-NEAR = 2.0  # spacings: water no further off than this presses on an obstacle at t = 0
+NEAR = 2.0  # spacings: water no further off than this presses on a wall at t = 0
 
 
 def blocks(case):

@@ -76,7 +76,13 @@ class Box:
 
 @dataclass(frozen=True, kw_only=True)
 class Water(Box):
-    """A box of water at rest; where a case has none, the tank is filled to its still depth."""
+    """A box of water, or what it encloses; without any, the tank is filled to its still depth."""
+
+    shape: str = key(
+        "the box itself, or the disc in x-z that touches its sides, in 3-D a cylinder along y",
+        "box",
+        choices=("box", "disc"),
+    )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -236,6 +236,15 @@ def test_doubtful_values_bring_a_warning_and_no_error(name, changes, part):
 # Files and settings
 
 
+def test_disc_too_small_to_hold_a_particle_is_refused():
+    disc = {"from": [0.1, 0.0, 0.1], "to": [0.119, 0.15, 0.2], "shape": "disc"}
+    part = "beyond 'from' = [0.1, 0.0, 0.1] by 0.02 m, 2 spacings, in x and z for shape = 'disc'"
+    assert_refused("dam_break", {"water": [disc]}, "water.0.to = [0.119, 0.15, 0.2]", part)
+    assert cases.load_case("dam_break", {"water": [{**disc, "to": [0.12, 0.15, 0.12]}]}).water
+    ball = {"water": [{**disc, "shape": "ball"}]}
+    assert_refused("dam_break", ball, "water.0.shape = 'ball': must be one of box, disc")
+
+
 def test_case_that_is_not_there_is_refused(tmp_path):
     message = refusal(cases.load_case, "plunging_braker")
     assert "case = 'plunging_braker': must be one of dam_break" in message

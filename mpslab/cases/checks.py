@@ -19,6 +19,9 @@ ROUNDING = 1e-9
 # Above this a case is taken for a slip of the pen: its arrays would take hundreds of gigabytes.
 MOST_PARTICLES = 1e9
 
+# A disc so many spacings across holds the centre of a particle, wherever it lies.
+LEAST_DISC = 2
+
 # Theories in which wavemaker.height is the height of the wave.
 WAVES = ("linear", "second_order", "cnoidal", "solitary")
 
@@ -152,6 +155,14 @@ def _check_water(case):
     axes = (0, 1, 2) if case.dim == 3 else (0, 2)
     for i, box in enumerate(case.water):
         _check_box(case, f"water.{i}.to", box, "there is no fluid")
+        least = LEAST_DISC * case.particles.spacing
+        _require(
+            box.shape == "box" or all(box.end[k] - box.start[k] >= least - slack for k in (0, 2)),
+            f"water.{i}.to",
+            box.end,
+            f"beyond 'from' = {shown(box.start)} by {least:g} m, {LEAST_DISC} spacings, in x and z"
+            f" for shape = 'disc'",
+        )
     for i, j in combinations(range(len(case.water)), 2):
         a, b = case.water[i], case.water[j]
         apart = any(a.end[k] <= b.start[k] + slack or b.end[k] <= a.start[k] + slack for k in axes)
