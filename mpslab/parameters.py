@@ -95,12 +95,19 @@ class Initial:
     """The state at t = 0."""
 
     type: str = key(
-        "water at rest, or the velocities of a standing wave",
+        "water at rest, or with the velocities of a standing wave, a strain or a rotation",
         "rest",
-        choices=("rest", "standing_wave"),
+        choices=("rest", "standing_wave", "strain", "rotation"),
     )
     amplitude: float = key("amplitude of the standing wave", 0.0, unit="m", low=0)
     mode: int = key("half wavelengths of the standing wave in the tank", 1, low=1)
+    rate: float = key(
+        "A about the water's centre of mass: strain (A x, -A z), rotation (A z, -A x)",
+        0.0,
+        unit="1/s",
+        low=-1e6,
+        high=1e6,
+    )
 
     def __post_init__(self):
         check_table(self)

@@ -236,6 +236,12 @@ def _check_motion(case):
             initial.amplitude,
             f"> 0 and < tank.depth = {tank.depth:g} m",
         )
+    _require(
+        initial.rate != 0.0 or initial.type not in ("strain", "rotation"),
+        "initial.rate",
+        initial.rate,
+        f"other than 0 for initial.type = {initial.type!r}",
+    )
 
 
 def _check_time(case):
