@@ -49,7 +49,7 @@ class Fluid:
 
     density: float = key("density", 1000.0, unit="kg/m3", above=0, high=1e5)
     viscosity: float = key("kinematic viscosity", 1e-6, unit="m2/s", low=0, high=1e3)
-    gravity: float = key("acceleration of gravity", 9.81, unit="m/s2", above=0, high=1e3)
+    gravity: float = key("acceleration of gravity", 9.81, unit="m/s2", low=0, high=1e3)
 
     def __post_init__(self):
         check_table(self)
@@ -225,7 +225,8 @@ class Time:
     viscous: float = key("dt <= viscous spacing^2 / viscosity", 0.2, above=0, high=1)
     growth: float = key("dt <= growth last dt", 1.1, above=1, high=10)
     maximum: float = key(
-        "largest dt; 0 for 0.2 spacing / sqrt(gravity depth), half with projection 'predicted'",
+        "largest dt; 0 for 0.2 spacing / sqrt(gravity depth), half with projection 'predicted'; "
+        "without gravity the largest speed at the start takes the place of the root",
         0.0,
         unit="s",
         low=0,

@@ -8,6 +8,7 @@ import numpy as np
 from mpslab import bed as beds
 from mpslab import breaking, geometry, obstacles, waves
 from mpslab.cases.checks import warnings
+from mpslab.cases.complete import initial_speed
 from mpslab.particles import KIND_NAMES
 from mpslab.piston import make_paddle
 
@@ -106,7 +107,9 @@ def _cost(case, n):
 def _expected_dt(case):
     """Courant limit at the speed of water that fell from the highest water to the lowest bed."""
     top = max([box.end[2] for box in case.water], default=case.tank.depth)
-    speed = math.sqrt(case.fluid.gravity * top)
+    speed = max(math.sqrt(case.fluid.gravity * top), initial_speed(case))
+    if speed == 0.0:
+        return case.time.maximum
     return min(case.time.maximum, case.time.courant * case.particles.spacing / speed)
 
 

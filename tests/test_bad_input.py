@@ -131,6 +131,7 @@ def test_wrong_or_incomplete_table_is_refused(key, value, part):
 
 PERIODIC = {"tank.width": 0.02}
 STANDING = {"initial.type": "standing_wave", "initial.amplitude": 0.05}
+WEIGHTLESS = {"fluid.gravity": 0, "wavemaker.type": "none", "initial.amplitude": 0.01}
 SHORT_STEP = {"time.maximum": 1e-4, "time.start": 1e-3}
 CLASHES = [
     ({"tank.bed": [[0, 0.05], [0.8, 0.06]]}, "tank.bed = ", "at the piston: first z < tank.depth"),
@@ -154,6 +155,9 @@ CLASHES = [
     (STANDING | {"initial.amplitude": 0}, "initial.amplitude = 0.0", "> 0 and < tank.depth"),
     (SHORT_STEP, "time.start = 0.001", "<= time.maximum = 0.0001 s"),
     ({"time.minimum": 1.0}, "time.minimum = 1.0", "<= time.start"),
+    ({"fluid.gravity": 0}, "fluid.gravity = 0.0", "> 0 for wavemaker.type = 'linear'"),
+    (STANDING | WEIGHTLESS, "fluid.gravity = 0.0", "> 0 for initial.type = 'standing_wave'"),
+    (WEIGHTLESS, "time.maximum = 0.0", "given, > 0 s, where fluid.gravity = 0"),
     ({"gauge.1.x": 0.9}, "gauge.1.x = 0.9", "from 0 to tank.length = 0.8 m"),
     ({"gauge.1.y": 0.04}, "gauge.1.y = 0.04", "from 0 to tank.width = 0.032 m"),
     ({"gauge.1.name": "flat"}, "gauge.1.name = 'flat'", "different from gauge.0.name"),

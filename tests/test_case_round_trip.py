@@ -67,7 +67,8 @@ def valid_tables(draw):
         "tank": tank,
         "particles": {"spacing": spacing, **draw(numbers_of("particles", "spacing", "layers"))},
         "time": {"end": draw(st.floats(1e-3, 1e6))},
-        "fluid": draw(numbers_of("fluid")),
+        "fluid": {"gravity": draw(st.floats(0.0, 1e3, exclude_min=True))}
+        | draw(numbers_of("fluid", "gravity")),
         "scheme": scheme,
         "wavemaker": {
             "type": "still",

@@ -36,6 +36,7 @@ def check(case: Case) -> None:
     _check_water(case)
     _check_obstacles(case)
     _check_motion(case)
+    _check_gravity(case)
     _check_time(case)
     for name in ("gauge", "probe"):
         _check_instruments(case, name)
@@ -244,6 +245,21 @@ def _check_motion(case):
     )
 
 
+def _check_gravity(case):
+    gravity, start, maker = case.fluid.gravity, case.initial.type, case.wavemaker.type
+    if gravity > 0.0:
+        return
+    _require(maker not in WAVES, "fluid.gravity", gravity, f"> 0 for wavemaker.type = {maker!r}")
+    calm = start != "standing_wave"
+    _require(calm, "fluid.gravity", gravity, f"> 0 for initial.type = {start!r}")
+    _require(
+        case.time.maximum > 0.0,
+        "time.maximum",
+        case.time.maximum,
+        "given, > 0 s, where fluid.gravity = 0 and the water starts at rest",
+    )
+
+
 def _check_time(case):
     time = case.time
     _require(
@@ -323,7 +339,7 @@ def _uneven_width(case):
 
 def _long_step(case):
     limit = largest_dt(case)
-    if case.time.maximum <= limit * (1.0 + ROUNDING):
+    if limit == 0.0 or case.time.maximum <= limit * (1.0 + ROUNDING):
         return ""
     return (
         f"time.maximum = {case.time.maximum:g} s: above the default for this scheme,"
