@@ -4,6 +4,8 @@ from itertools import pairwise
 
 import numpy as np
 
+CLOSEST = 0.7  # spacings: a solid particle nearer to the bed layers than this is left out
+
 
 def elevation(bed, x):
     """Elevation of the bed at x, both ends carried on with the slope they have [m].
@@ -18,6 +20,12 @@ def elevation(bed, x):
     z = np.interp(x, points[:, 0], points[:, 1])
     last = _slope(points[-2], points[-1])
     return z + np.where(x > points[-1, 0], last * (x - points[-1, 0]), 0.0)
+
+
+def lowest(bed, start, end):
+    """Lowest elevation of the bed between two places [m]."""
+    inside = [z for x, z in bed if start <= x <= end]
+    return float(min([*inside, elevation(bed, start), elevation(bed, end)]))
 
 
 def slope(bed, x):

@@ -1,4 +1,4 @@
-"""Initial particles of a case: water, bed, end walls, piston, side walls.
+"""Initial particles of a case: water, bed, end walls, piston, side walls, obstacles.
 
 The cross-section (x, z) is laid out first and then repeated across the tank.  Water particles
 stand half a spacing off every boundary, wall particles half a spacing behind it.
@@ -8,9 +8,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from mpslab import bed as beds
+from mpslab import obstacles
 from mpslab.particles import DUMMY, FLUID, PISTON, PISTON_DUMMY, WALL, make_particles
-
-CLOSEST = 0.7  # spacings: a wall particle nearer to the bed layers than this is left out
 
 
 def effective_length(case):
@@ -57,12 +56,22 @@ def build_particles(case, backmost=0.0):
     water = _water_section(case)
     solid, kind = _solid_section(case, backmost)
     position, kinds = _repeat_across(case, water, solid, kind, backmost)
+    if case.obstacle:
+        position, kinds = _with_obstacles(case, position, kinds)
     position[kinds == FLUID] += _jitter(case, np.count_nonzero(kinds == FLUID))
     cell = np.floor(position / spacing + 1e-6)
     order = np.lexsort((position[:, 2], cell[:, 1], cell[:, 0]))
     particles = make_particles(position[order], kinds[order])
     _set_hydrostatic(case, particles)
+    if case.obstacle:
+        obstacles.press(case, particles)
     return particles
+
+
+def _with_obstacles(case, position, kinds):
+    obstacles.cover(case, position, kinds)
+    body, kind = obstacles.fill(case, position[kinds != FLUID])
+    return np.vstack([position, body]), np.concatenate([kinds, kind])
 
 
 def _jitter(case, n):
@@ -95,20 +104,43 @@ def _stack(case, x, bottom, top):
     return np.column_stack([np.full(n, x), first + np.arange(n) * spacing])
 
 
+def filled(case):
+    """Box of the water of a tank that is filled to its still depth, (start, end) [m]."""
+    return (0.0, 0.0, -np.inf), (effective_length(case), case.tank.width, case.tank.depth)
+
+
 def _water_section(case):
     """Water particles as (x, z, y from, y to) rows: boxes may fill a part of the width."""
-    width = case.tank.width
-    boxes = [(b.start, b.end) for b in case.water] or [
-        ((0.0, 0.0, -np.inf), (effective_length(case), width, case.tank.depth))
-    ]
-    rows, spacing = [], case.particles.spacing
-    for start, end in boxes:
-        sides = [round(start[1] / spacing) * spacing, round(end[1] / spacing) * spacing]
-        for x in _columns(case, start[0], min(end[0], effective_length(case))):
-            stack = _stack(case, x, start[2], end[2])
+    rows = [np.zeros((0, 4))]
+    for water in case.water:
+        if water.shape == "disc":
+            rows.append(_disc(case, water))
+        else:
+            rows.append(_box(case, water.start, water.end))
+    return np.vstack(rows) if case.water else _box(case, *filled(case))
+
+
+def _box(case, start, end):
+    """Rows of the section for a box of water, less what obstacles take of it, (n, 4) [m]."""
+    rows, spacing = [np.zeros((0, 4))], case.particles.spacing
+    for low, high in obstacles.around(case, start, end):
+        sides = [round(low[1] / spacing) * spacing, round(high[1] / spacing) * spacing]
+        for x in _columns(case, low[0], min(high[0], effective_length(case))):
+            stack = _stack(case, x, low[2], high[2])
             across = np.broadcast_to(sides, (len(stack), 2))
             rows.append(np.hstack([stack, across]))
-    return np.vstack(rows) if rows else np.zeros((0, 4))
+    return np.vstack(rows)
+
+
+def _disc(case, water):
+    """Rows of the section for the disc in a box: those of the lattice with their centre inside."""
+    spacing = case.particles.spacing
+    (x0, y0, z0), (x1, _, z1) = water.start, water.end
+    whole = np.round(z0 / spacing) * spacing
+    rows = _box(case, (x0, y0, whole), water.end)
+    across = (rows[:, 0] - 0.5 * (x0 + x1)) / (0.5 * (x1 - x0))
+    up = (rows[:, 1] - 0.5 * (z0 + z1)) / (0.5 * (z1 - z0))
+    return rows[across**2 + up**2 <= 1.0 + 1e-9]
 
 
 def _solid_section(case, backmost):
@@ -167,7 +199,7 @@ def _end_wall(case, floor, side):
         rows.append(stack)
         kinds.append(np.full(len(stack), DUMMY if k else WALL, np.int8))
     wall, kind = np.vstack(rows), np.concatenate(kinds)
-    free = cKDTree(floor).query(wall)[0] > CLOSEST * spacing
+    free = cKDTree(floor).query(wall)[0] > beds.CLOSEST * spacing
     return wall[free], kind[free]
 
 
@@ -227,3 +259,6 @@ def _set_hydrostatic(case, particles):
     depth = np.maximum(top[column] - particles.position[:, 2], 0.0)
     weight = case.fluid.density * case.fluid.gravity
     particles.pressure[:] = np.where(particles.carries_pressure, weight * depth, 0.0)
+    if case.water:  # which may float above the bed
+        off = cKDTree(particles.position[fluid]).query(particles.position)[0]
+        particles.pressure[off > obstacles.NEAR * spacing] = 0.0

@@ -49,15 +49,15 @@ class Fluid:
 
     density: float = key("density", 1000.0, unit="kg/m3", above=0, high=1e5)
     viscosity: float = key("kinematic viscosity", 1e-6, unit="m2/s", low=0, high=1e3)
-    gravity: float = key("acceleration of gravity", 9.81, unit="m/s2", above=0, high=1e3)
+    gravity: float = key("acceleration of gravity", 9.81, unit="m/s2", low=0, high=1e3)
 
     def __post_init__(self):
         check_table(self)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Water:
-    """A box of water at rest; where a case has none, the tank is filled to its still depth."""
+class Box:
+    """A box in the tank."""
 
     start: tuple = key(
         "corner [x, y, z] with the smallest coordinates; y does not count in 2-D",
@@ -75,16 +75,39 @@ class Water:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Water(Box):
+    """A box of water, or what it encloses; without any, the tank is filled to its still depth."""
+
+    shape: str = key(
+        "the box itself, or the disc in x-z that touches its sides, in 3-D a cylinder along y",
+        "box",
+        choices=("box", "disc"),
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Obstacle(Box):
+    """A solid box that stands in the tank."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class Initial:
     """The state at t = 0."""
 
     type: str = key(
-        "water at rest, or the velocities of a standing wave",
+        "water at rest, or with the velocities of a standing wave, a strain or a rotation",
         "rest",
-        choices=("rest", "standing_wave"),
+        choices=("rest", "standing_wave", "strain", "rotation"),
     )
     amplitude: float = key("amplitude of the standing wave", 0.0, unit="m", low=0)
     mode: int = key("half wavelengths of the standing wave in the tank", 1, low=1)
+    rate: float = key(
+        "A about the water's centre of mass: strain (A x, -A z), rotation (A z, -A x)",
+        0.0,
+        unit="1/s",
+        low=-1e6,
+        high=1e6,
+    )
 
     def __post_init__(self):
         check_table(self)
@@ -202,7 +225,8 @@ class Time:
     viscous: float = key("dt <= viscous spacing^2 / viscosity", 0.2, above=0, high=1)
     growth: float = key("dt <= growth last dt", 1.1, above=1, high=10)
     maximum: float = key(
-        "largest dt; 0 for 0.2 spacing / sqrt(gravity depth), half with projection 'predicted'",
+        "largest dt; 0 for 0.2 spacing / sqrt(gravity depth), half with projection 'predicted'; "
+        "without gravity the largest speed at the start takes the place of the root",
         0.0,
         unit="s",
         low=0,
@@ -291,7 +315,7 @@ TABLES = {
     "parallel": Parallel,
     "output": Output,
 }
-LISTS = {"water": Water, "gauge": Gauge, "probe": Probe}
+LISTS = {"water": Water, "obstacle": Obstacle, "gauge": Gauge, "probe": Probe}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -310,6 +334,7 @@ class Case:
     parallel: Parallel = field(default_factory=Parallel)
     output: Output = field(default_factory=Output)
     water: tuple[Water, ...] = ()
+    obstacle: tuple[Obstacle, ...] = ()
     gauge: tuple[Gauge, ...] = ()
     probe: tuple[Probe, ...] = ()
 

@@ -3,15 +3,29 @@
 import numpy as np
 
 from mpslab import plugins
+from mpslab.keys import CaseError, shown
 from mpslab.particles import DUMMY, WALL
+
+ROOM = 3  # spacings that are left between the piston and an obstacle
 
 
 def make_paddle(case):
-    """Motion of a case's wavemaker, None when the tank has a fixed wall."""
+    """Motion of a case's wavemaker, None when the tank has a fixed wall.
+
+    Raises ValueError where the wavemaker cannot make its wave, or would run into an obstacle.
+    """
     if case.wavemaker.type == "none":
         return None
     maker = plugins.load("wavemakers", case.wavemaker.type)
-    return maker.make(case.wavemaker, case.tank.depth, case.fluid.gravity, case.time.end)
+    paddle = maker.make(case.wavemaker, case.tank.depth, case.fluid.gravity, case.time.end)
+    reach = paddle.foremost + ROOM * case.particles.spacing
+    for i, box in enumerate(case.obstacle):
+        if box.start[0] < reach:
+            raise CaseError(
+                f"obstacle.{i}.from = {shown(box.start)}: must be at x >= {reach:.4g} m, {ROOM} "
+                "spacings ahead of the foremost place of the piston"
+            )
+    return paddle
 
 
 class Piston:

@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mpslab import bed as beds
-from mpslab import breaking, geometry, waves
+from mpslab import breaking, geometry, obstacles, waves
 from mpslab.cases.checks import warnings
+from mpslab.cases.complete import initial_speed
 from mpslab.particles import KIND_NAMES
 from mpslab.piston import make_paddle
 
@@ -68,7 +69,26 @@ def _particles(case, particles):
         ("particles", f"{len(particles):,} ({kinds})"),
         ("spacing", f"{spacing * 1e3:g} mm, {case.tank.depth / spacing:.3g} over the depth"),
         ("tank in whole spacings", size),
+        *_obstacles(case),
     ]
+
+
+def _obstacles(case):
+    """Faces of the obstacles as they are laid out."""
+    axes = "xyz" if case.dim == 3 else "x z"
+    for i, (low, high) in enumerate(obstacles.blocks(case) * case.particles.spacing):
+        sides = [
+            f"{axis} {_face(low[k], axis)} to {_face(high[k], axis)}"
+            for k, axis in enumerate(axes)
+            if axis != " "
+        ]
+        yield f"obstacle.{i} in whole spacings", ", ".join(sides)
+
+
+def _face(place, axis):
+    if np.isfinite(place):
+        return f"{place:.4g} m"
+    return "bed" if axis == "z" else "wall"
 
 
 def _cost(case, n):
@@ -87,7 +107,9 @@ def _cost(case, n):
 def _expected_dt(case):
     """Courant limit at the speed of water that fell from the highest water to the lowest bed."""
     top = max([box.end[2] for box in case.water], default=case.tank.depth)
-    speed = math.sqrt(case.fluid.gravity * top)
+    speed = max(math.sqrt(case.fluid.gravity * top), initial_speed(case))
+    if speed == 0.0:
+        return case.time.maximum
     return min(case.time.maximum, case.time.courant * case.particles.spacing / speed)
 
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mpslab import obstacles
 from mpslab.geometry import effective_length, rows_across
 
 MOST_LOST = 1e-3  # of the fluid particles at the start
@@ -42,6 +43,8 @@ def find_lost(case, particles, face):
         width = rows_across(case) * spacing
         out = (position[:, 1] < -spacing) | (position[:, 1] > width + spacing)
         sides.append(("behind a side wall", out))
+    if case.obstacle:
+        sides.append(("into an obstacle", obstacles.deep_inside(case, position) >= 0))
     found, seen = [], ~particles.fluid
     for reason, outside in sides:
         rows = np.flatnonzero(outside & ~seen)

@@ -131,6 +131,7 @@ def test_wrong_or_incomplete_table_is_refused(key, value, part):
 
 PERIODIC = {"tank.width": 0.02}
 STANDING = {"initial.type": "standing_wave", "initial.amplitude": 0.05}
+WEIGHTLESS = {"fluid.gravity": 0, "wavemaker.type": "none", "initial.amplitude": 0.01}
 SHORT_STEP = {"time.maximum": 1e-4, "time.start": 1e-3}
 CLASHES = [
     ({"tank.bed": [[0, 0.05], [0.8, 0.06]]}, "tank.bed = ", "at the piston: first z < tank.depth"),
@@ -154,6 +155,9 @@ CLASHES = [
     (STANDING | {"initial.amplitude": 0}, "initial.amplitude = 0.0", "> 0 and < tank.depth"),
     (SHORT_STEP, "time.start = 0.001", "<= time.maximum = 0.0001 s"),
     ({"time.minimum": 1.0}, "time.minimum = 1.0", "<= time.start"),
+    ({"fluid.gravity": 0}, "fluid.gravity = 0.0", "> 0 for wavemaker.type = 'linear'"),
+    (STANDING | WEIGHTLESS, "fluid.gravity = 0.0", "> 0 for initial.type = 'standing_wave'"),
+    (WEIGHTLESS, "time.maximum = 0.0", "given, > 0 s, where fluid.gravity = 0"),
     ({"gauge.1.x": 0.9}, "gauge.1.x = 0.9", "from 0 to tank.length = 0.8 m"),
     ({"gauge.1.y": 0.04}, "gauge.1.y = 0.04", "from 0 to tank.width = 0.032 m"),
     ({"gauge.1.name": "flat"}, "gauge.1.name = 'flat'", "different from gauge.0.name"),
@@ -234,6 +238,15 @@ def test_doubtful_values_bring_a_warning_and_no_error(name, changes, part):
 
 
 # Files and settings
+
+
+def test_disc_too_small_to_hold_a_particle_is_refused():
+    disc = {"from": [0.1, 0.0, 0.1], "to": [0.119, 0.15, 0.2], "shape": "disc"}
+    part = "beyond 'from' = [0.1, 0.0, 0.1] by 0.02 m, 2 spacings, in x and z for shape = 'disc'"
+    assert_refused("dam_break", {"water": [disc]}, "water.0.to = [0.119, 0.15, 0.2]", part)
+    assert cases.load_case("dam_break", {"water": [{**disc, "to": [0.12, 0.15, 0.12]}]}).water
+    ball = {"water": [{**disc, "shape": "ball"}]}
+    assert_refused("dam_break", ball, "water.0.shape = 'ball': must be one of box, disc")
 
 
 def test_case_that_is_not_there_is_refused(tmp_path):

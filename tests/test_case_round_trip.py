@@ -14,7 +14,8 @@ from mpslab.parameters import LISTS, TABLES, Case
 
 
 def test_every_key_is_written_with_its_unit_and_meaning():
-    text = cases.dumps(cases.load_case("dam_break"))
+    box = {"from": [0.7, 0.0, 0.0], "to": [0.8, 0.1, 0.1]}
+    text = cases.dumps(cases.load_case("dam_break", {"obstacle": [box]}))
     for kind in (*TABLES.values(), *LISTS.values()):
         for item in fields(kind):
             assert re.search(
@@ -66,7 +67,8 @@ def valid_tables(draw):
         "tank": tank,
         "particles": {"spacing": spacing, **draw(numbers_of("particles", "spacing", "layers"))},
         "time": {"end": draw(st.floats(1e-3, 1e6))},
-        "fluid": draw(numbers_of("fluid")),
+        "fluid": {"gravity": draw(st.floats(0.0, 1e3, exclude_min=True))}
+        | draw(numbers_of("fluid", "gravity")),
         "scheme": scheme,
         "wavemaker": {
             "type": "still",

@@ -78,6 +78,51 @@ def test_water_boxes_hold_their_volume_at_their_place():
     assert np.all(second < [0.02, 0.01, 0.01])
 
 
+@pytest.mark.parametrize("width", [0.0, 0.02])
+def test_disc_holds_the_lattice_sites_inside_the_ellipse_of_its_box(width):
+    disc = {**box([0.0052, 0.004, 0.006], [0.0352, 0.01, 0.026]), "shape": "disc"}
+    _, particles = walled(**{"tank.length": 0.04, "tank.width": width, "water": [disc]})
+    x, y, z = particles.position[particles.fluid].T / D0
+    np.testing.assert_allclose([x % 1.0, z % 1.0], 0.5, rtol=1e-9)
+    sites = np.stack(np.meshgrid(np.arange(20) + 0.5, np.arange(18) + 0.5, indexing="ij"), -1)
+    away = ((sites[..., 0] - 10.1) / 7.5) ** 2 + ((sites[..., 1] - 8.0) / 5.0) ** 2
+    assert len(x) == np.count_nonzero(away < 1.0) * (3 if width else 1)
+    assert np.all(((x - 10.1) / 7.5) ** 2 + ((z - 8.0) / 5.0) ** 2 < 1.0)
+    assert set(np.round(y, 9)) == ({2.5, 3.5, 4.5} if width else {0.0})
+    assert closest(particles.position) > 0.999 * D0
+
+
+@pytest.mark.parametrize("across", [20, 21])
+def test_disc_is_symmetric(across):
+    """Radius 10 puts sites of a lattice on the circle itself: they count on every side of it."""
+    size = across * D0
+    disc = {**box([0.01, 0.0, 0.01], [0.01 + size, 0.0, 0.01 + size]), "shape": "disc"}
+    tank = {"tank.length": 0.06, "tank.depth": 0.03, "tank.height": 0.06, "water": [disc]}
+    position = geometry.build_particles(make_case(tank)).position
+    inside = np.all((position > [0.01, -1, 0.01]) & (position < 0.01 + size), axis=1)
+    middle = np.round((position[inside] - 0.01) / D0 - 0.5 * across, 6)[:, [0, 2]]
+    sites = {tuple(site) for site in middle}
+    assert len(sites) == pytest.approx(np.pi * (0.5 * across) ** 2, rel=0.03)
+    assert sites == {(-x, z) for x, z in sites} == {(z, x) for x, z in sites}
+
+
+def test_floating_water_does_not_press_on_the_bed():
+    disc = {**box([0.01, 0.0, 0.02], [0.03, 0.0, 0.04]), "shape": "disc"}
+    case = make_case({"water": [disc]})
+    particles = geometry.build_particles(case)
+    assert np.all(particles.pressure[~particles.fluid] == 0.0)
+    assert particles.pressure.max() > 1000.0 * 9.81 * 0.015
+
+
+def test_disc_beside_an_obstacle_leaves_its_place_free():
+    disc = {**box([0.01, 0.0, 0.0], [0.03, 0.0, 0.02]), "shape": "disc"}
+    obstacle = box([0.02, 0.0, 0.0], [0.04, 0.0, 0.02])
+    particles = geometry.build_particles(make_case({"water": [disc], "obstacle": [obstacle]}))
+    x = particles.position[particles.fluid, 0]
+    assert x.max() < 0.02
+    assert len(x) == pytest.approx(0.5 * np.pi * 5.0**2, rel=0.05)
+
+
 def test_water_box_on_a_slope_stands_on_the_bed():
     bed = [[0.0, 0.0], [0.1, 0.0], [0.4, 0.1]]
     water = [box([0.15, 0.0, 0.0], [0.2, 0.0, 0.06])]

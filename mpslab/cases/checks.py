@@ -5,7 +5,10 @@ from itertools import combinations, pairwise
 from math import ceil
 from pathlib import Path
 
-from mpslab import plugins
+import numpy as np
+
+from mpslab import bed as beds
+from mpslab import geometry, obstacles, plugins
 from mpslab.cases.complete import largest_dt
 from mpslab.keys import CaseError, require_choice, shown, toml_name
 from mpslab.parameters import Case
@@ -15,6 +18,9 @@ ROUNDING = 1e-9
 
 # Above this a case is taken for a slip of the pen: its arrays would take hundreds of gigabytes.
 MOST_PARTICLES = 1e9
+
+# A disc so many spacings across holds the centre of a particle, wherever it lies.
+LEAST_DISC = 2
 
 # Theories in which wavemaker.height is the height of the wave.
 WAVES = ("linear", "second_order", "cnoidal", "solitary")
@@ -27,8 +33,10 @@ def check(case: Case) -> None:
     _check_walls(case)
     _check_spacing(case)
     _check_width(case)
-    _check_boxes(case)
+    _check_water(case)
+    _check_obstacles(case)
     _check_motion(case)
+    _check_gravity(case)
     _check_time(case)
     for name in ("gauge", "probe"):
         _check_instruments(case, name)
@@ -143,45 +151,72 @@ def _check_width(case):
     )
 
 
-def _check_boxes(case):
-    axes = (0, 1, 2) if case.dim == 3 else (0, 2)
-    limit = (case.tank.length, case.tank.width, case.tank.height)
+def _check_water(case):
     slack = ROUNDING * case.tank.length
-    spacing = case.particles.spacing
+    axes = (0, 1, 2) if case.dim == 3 else (0, 2)
     for i, box in enumerate(case.water):
+        _check_box(case, f"water.{i}.to", box, "there is no fluid")
+        least = LEAST_DISC * case.particles.spacing
         _require(
-            all(box.end[k] <= limit[k] + slack for k in axes),
+            box.shape == "box" or all(box.end[k] - box.start[k] >= least - slack for k in (0, 2)),
             f"water.{i}.to",
             box.end,
-            f"inside the tank, [x, y, z] <= {shown(limit)} m",
+            f"beyond 'from' = {shown(box.start)} by {least:g} m, {LEAST_DISC} spacings, in x and z"
+            f" for shape = 'disc'",
         )
-        _require(
-            all(box.end[k] - box.start[k] >= spacing - slack for k in axes),
-            f"water.{i}.to",
-            box.end,
-            f"beyond 'from' = {shown(box.start)} by a spacing, {spacing:g} m, or there is no fluid",
-        )
-        bed = _lowest_bed(case.tank, box.start[0], box.end[0])
-        _require(
-            box.end[2] >= bed + spacing - slack,
-            f"water.{i}.to",
-            box.end,
-            f"above the bed by a spacing, z >= {bed + spacing:g} m, or there is no fluid",
-        )
-
-
     for i, j in combinations(range(len(case.water)), 2):
         a, b = case.water[i], case.water[j]
-        apart = any(
-            a.end[k] <= b.start[k] + slack or b.end[k] <= a.start[k] + slack for k in axes
-        )
+        apart = any(a.end[k] <= b.start[k] + slack or b.end[k] <= a.start[k] + slack for k in axes)
         rule = f"outside of the box water.{i}, or both overlap"
         _require(apart, f"water.{j}.from", b.start, rule)
 
 
-def _lowest_bed(tank, start, end):
-    inside = [z for x, z in tank.bed if start <= x <= end]
-    return min([*inside, float(tank.bed_height(start)), float(tank.bed_height(end))])
+def _check_box(case, key, box, lack):
+    axes = (0, 1, 2) if case.dim == 3 else (0, 2)
+    limit = (case.tank.length, case.tank.width, case.tank.height)
+    slack = ROUNDING * case.tank.length
+    spacing = case.particles.spacing
+    _require(
+        all(box.end[k] <= limit[k] + slack for k in axes),
+        key,
+        box.end,
+        f"inside the tank, [x, y, z] <= {shown(limit)} m",
+    )
+    _require(
+        all(box.end[k] - box.start[k] >= spacing - slack for k in axes),
+        key,
+        box.end,
+        f"beyond 'from' = {shown(box.start)} by a spacing, {spacing:g} m, or {lack}",
+    )
+    bed = beds.lowest(case.tank.bed, box.start[0], box.end[0])
+    _require(
+        box.end[2] >= bed + spacing - slack,
+        key,
+        box.end,
+        f"above the bed by a spacing, z >= {bed + spacing:g} m, or {lack}",
+    )
+
+
+def _check_obstacles(case):
+    spacing, least = case.particles.spacing, obstacles.least_thickness(case)
+    for i, box in enumerate(case.obstacle):
+        _check_box(case, f"obstacle.{i}.to", box, "it has no particles")
+    for i, (low, high) in enumerate(obstacles.blocks(case)):
+        for axis, thickness in zip("xyz", high - low, strict=True):
+            _require(
+                thickness >= least,
+                f"obstacle.{i}.to",
+                case.obstacle[i].end,
+                f"beyond 'from' = {shown(case.obstacle[i].start)} along {axis} by {least} spacings,"
+                f" {least * spacing:g} m, or water on one side presses through to the other",
+            )
+    boxes = [(box.start, box.end) for box in case.water] or [geometry.filled(case)]
+    _require(
+        not case.obstacle or any(obstacles.around(case, *box) for box in boxes),
+        "obstacle",
+        [[box.start, box.end] for box in case.obstacle],
+        "boxes that leave room for the water",
+    )
 
 
 def _check_motion(case):
@@ -202,6 +237,27 @@ def _check_motion(case):
             initial.amplitude,
             f"> 0 and < tank.depth = {tank.depth:g} m",
         )
+    _require(
+        initial.rate != 0.0 or initial.type not in ("strain", "rotation"),
+        "initial.rate",
+        initial.rate,
+        f"other than 0 for initial.type = {initial.type!r}",
+    )
+
+
+def _check_gravity(case):
+    gravity, start, maker = case.fluid.gravity, case.initial.type, case.wavemaker.type
+    if gravity > 0.0:
+        return
+    _require(maker not in WAVES, "fluid.gravity", gravity, f"> 0 for wavemaker.type = {maker!r}")
+    calm = start != "standing_wave"
+    _require(calm, "fluid.gravity", gravity, f"> 0 for initial.type = {start!r}")
+    _require(
+        case.time.maximum > 0.0,
+        "time.maximum",
+        case.time.maximum,
+        "given, > 0 s, where fluid.gravity = 0 and the water starts at rest",
+    )
 
 
 def _check_time(case):
@@ -241,6 +297,9 @@ def _check_instruments(case, kind):
             inside = bed - slack <= item.z <= tank.height + slack
             rule = f"from the bed, {bed:g} m, to tank.height = {tank.height:g} m"
             _require(inside, f"{where}.z", item.z, rule)
+            holder = obstacles.deep_inside(case, np.array([[item.x, item.y, item.z]]))[0]
+            rule = f"outside of obstacle.{holder}, or on one of its faces"
+            _require(holder < 0, where, [item.x, item.y, item.z], rule)
 
 
 def _wave_height(case):
@@ -280,7 +339,7 @@ def _uneven_width(case):
 
 def _long_step(case):
     limit = largest_dt(case)
-    if case.time.maximum <= limit * (1.0 + ROUNDING):
+    if limit == 0.0 or case.time.maximum <= limit * (1.0 + ROUNDING):
         return ""
     return (
         f"time.maximum = {case.time.maximum:g} s: above the default for this scheme,"

@@ -1,7 +1,7 @@
 """Fills in the values of a case that follow from others, so that a run can be read off its case."""
 
 from dataclasses import replace
-from math import ceil, sqrt
+from math import ceil, hypot, sqrt
 
 from mpslab.parameters import Case
 
@@ -16,7 +16,8 @@ def complete(case: Case) -> Case:
     return replace(
         case,
         tank=tank,
-        water=tuple(_flat_box(box) for box in case.water) if tank.width == 0.0 else case.water,
+        water=_boxes(case.water, tank),
+        obstacle=_boxes(case.obstacle, tank),
         particles=replace(case.particles, layers=case.particles.layers or least_layers(case)),
         time=_time(case),
         output=_output(case),
@@ -33,11 +34,26 @@ def least_layers(case: Case) -> int:
 def largest_dt(case: Case) -> float:
     """Largest time step where none is given [s].
 
-    0.2 d0 / sqrt(g h); half of it where the pressure acts at predicted positions, which is stable
-    up to a smaller step.
+    0.2 d0 / sqrt(g h), without gravity 0.2 d0 / speed at the start; half of it where the pressure
+    acts at predicted positions, which is stable up to a smaller step. 0 where nothing moves.
     """
     share = 0.1 if case.scheme.projection == "predicted" else 0.2
-    return share * case.particles.spacing / (sqrt(case.fluid.gravity) * sqrt(case.tank.depth))
+    speed = sqrt(case.fluid.gravity) * sqrt(case.tank.depth) or initial_speed(case)
+    return share * case.particles.spacing / speed if speed > 0.0 else 0.0
+
+
+def initial_speed(case: Case) -> float:
+    """Speed that `initial.rate` gives a corner of the water, 0 without a rate [m/s]."""
+    if case.initial.type not in ("strain", "rotation"):
+        return 0.0
+    tank = case.tank
+    boxes = [(box.start, box.end) for box in case.water] or [
+        ((0.0, 0.0, 0.0), (tank.length, tank.width, tank.depth))
+    ]
+    along, up = (
+        max(end[k] for _, end in boxes) - min(start[k] for start, _ in boxes) for k in (0, 2)
+    )
+    return 0.5 * abs(case.initial.rate) * hypot(along, up)
 
 
 def _tank(tank):
@@ -69,6 +85,10 @@ def _across(instrument, tank):
     return replace(
         instrument, y=middle if instrument.y is None or tank.width == 0.0 else instrument.y
     )
+
+
+def _boxes(boxes, tank):
+    return tuple(_flat_box(box) for box in boxes) if tank.width == 0.0 else boxes
 
 
 def _flat_box(box):

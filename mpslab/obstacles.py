@@ -1,0 +1,173 @@
+"""Obstacles: solid boxes that stand in the tank, and the room they leave for the water.
+
+A box is rounded to whole spacings.  Its particles stand on the lattice, half a spacing inside its
+faces; boxes that touch or overlap make one body.
+"""
+
+from itertools import product
+from math import ceil
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from mpslab import bed as beds
+from mpslab.particles import DUMMY, WALL
+
+NEAR = 2.0  # spacings: water no further off than this presses on a wall at t = 0
+
+
+def blocks(case):
+    """Low and high corners of the obstacles in whole spacings, (k, 2, 3) float64 [spacings].
+
+    Infinite where a box stands against the bed or a wall, for no water is beyond; so is y in 2-D.
+    """
+    return np.array([_block(case, box) for box in case.obstacle]).reshape(-1, 2, 3)
+
+
+def least_thickness(case):
+    """Spacings between faces that both meet water, so that no particle has both in its reach.
+
+    Water stands at the face at the nearest, and a particle k layers below it k + 1/2 off.
+    """
+    radius = max(case.scheme.effective_radius, case.scheme.laplacian_radius)
+    return 2 * ceil(radius - 0.5)
+
+
+def around(case, start, end):
+    """What the obstacles leave of a box of water from start to end: such boxes, as pairs [m]."""
+    boxes, spacing = [(start, end)], case.particles.spacing
+    for low, high in blocks(case) * spacing:
+        boxes = [piece for box in boxes for piece in _cut(*box, low, high, spacing)]
+    return boxes
+
+
+def fill(case, solid):
+    """Particles of the obstacles among the others: positions (n, 3) [m] and kinds (n,) int8.
+
+    The outermost are wall, all inside are dummy.
+
+    Parameters
+    ----------
+    solid : (m, 3) float64 [m]
+        Bed and walls; particles that came too close to these are left out.
+    """
+    spacing = case.particles.spacing
+    cells = [_cells(case, low, high) for low, high in blocks(case)]
+    place = np.unique(np.vstack(cells), axis=0) + 0.5
+    if case.dim == 2:
+        place[:, 1] = 0.0
+    position = place * spacing
+    free = position[:, 2] > beds.elevation(case.tank.bed, position[:, 0])
+    free &= cKDTree(solid).query(position)[0] > beds.CLOSEST * spacing
+    return position[free], np.where(_meets_water(case, place[free]), WALL, DUMMY).astype(np.int8)
+
+
+def cover(case, position, kind):
+    """Make dummies of the wall particles that obstacles stand against, in place."""
+    place = position / case.particles.spacing
+    rows = np.flatnonzero((kind == WALL) & _inside(case, place))
+    kind[rows[~_meets_water(case, place[rows])]] = DUMMY
+
+
+def press(case, particles):
+    """Give the obstacles' walls the hydrostatic pressure of the water next to them, in place."""
+    spacing, fluid = case.particles.spacing, np.flatnonzero(particles.fluid)
+    wall = (particles.kind == WALL) & _inside(case, particles.position / spacing)
+    rows, position = np.flatnonzero(wall), particles.position
+    off, near = cKDTree(position[fluid]).query(position[rows])
+    near = fluid[near]
+    rise = position[near, 2] - position[rows, 2]
+    weight = case.fluid.density * case.fluid.gravity
+    pressure = np.maximum(particles.pressure[near] + weight * rise, 0.0)
+    particles.pressure[rows] = np.where(off < NEAR * spacing, pressure, 0.0)
+
+
+def deep_inside(case, position):
+    """Number of the obstacle that holds a place more than a spacing below its faces, or -1.
+
+    position : (n, 3) float64 [m]; returns (n,) int
+    """
+    return _holder(case, position / case.particles.spacing, margin=1.0)
+
+
+def _block(case, box):
+    tank, spacing = case.tank, case.particles.spacing
+    low, high = (np.round(np.array(corner) / spacing) for corner in (box.start, box.end))
+    length, width = _size(case)
+    whole_width = low[1] <= 0.0 and high[1] >= width
+    if low[0] <= 0.0:
+        low[0] = -np.inf
+    if high[0] >= length:
+        high[0] = np.inf
+    if case.dim == 2 or whole_width or (low[1] <= 0.0 and not tank.periodic):
+        low[1] = -np.inf
+    if case.dim == 2 or whole_width or (high[1] >= width and not tank.periodic):
+        high[1] = np.inf
+    if box.start[2] < beds.lowest(tank.bed, box.start[0], box.end[0]) + 0.5 * spacing:
+        low[2] = -np.inf
+    return low, high
+
+
+def _size(case):
+    """Length and width of the tank in whole spacings; width 1 in 2-D."""
+    spacing = case.particles.spacing
+    return round(case.tank.length / spacing), max(round(case.tank.width / spacing), 1)
+
+
+def _cut(start, end, low, high, spacing):
+    """The boxes that a block leaves of another box: along x first, then y, then z."""
+    if any(end[k] <= low[k] or start[k] >= high[k] for k in range(3)):
+        return [(start, end)]
+    pieces = []
+    for k in range(3):
+        if start[k] < low[k]:
+            # Water is stacked in whole particles, to the nearest: below a block, to the one below.
+            top = low[k] - 0.499 * spacing if k == 2 else low[k]
+            pieces.append((start, (*end[:k], top, *end[k + 1 :])))
+            start = (*start[:k], low[k], *start[k + 1 :])
+        if end[k] > high[k]:
+            pieces.append(((*start[:k], high[k], *start[k + 1 :]), end))
+            end = (*end[:k], high[k], *end[k + 1 :])
+    return pieces
+
+
+def _cells(case, low, high):
+    """Lattice cells of a block inside the tank, (n, 3) int."""
+    length, width = _size(case)
+    ends = np.clip([low[0], high[0]], 0, length) * case.particles.spacing
+    ground = np.floor(beds.lowest(case.tank.bed, *ends) / case.particles.spacing)
+    least, most = (0, 0, ground), (length, width, np.inf)
+    ranges = [np.arange(max(a, c), min(b, d)) for a, b, c, d in
+              zip(low, high, least, most, strict=True)]  # fmt: skip
+    return np.stack(np.meshgrid(*ranges, indexing="ij"), axis=-1).reshape(-1, 3)
+
+
+def _meets_water(case, place):
+    """Whether one of the lattice sites around a place has room for water, (n,) bool."""
+    sites = product((-1, 0, 1), (-1, 0, 1) if case.dim == 3 else (0,), (-1, 0, 1))
+    return np.any([_open(case, place + site) for site in sites], axis=0)
+
+
+def _open(case, place):
+    """Whether places (n, 3) [spacings] are in the tank and in no obstacle, (n,) bool."""
+    length, width = _size(case)
+    spacing, x, y = case.particles.spacing, place[:, 0], place[:, 1]
+    if case.tank.periodic:
+        place = np.column_stack([x, y % width, place[:, 2]])
+    in_tank = (x > 0.0) & (x < length)
+    in_tank &= place[:, 2] * spacing > beds.elevation(case.tank.bed, x * spacing)
+    if case.dim == 3 and not case.tank.periodic:
+        in_tank &= (y > 0.0) & (y < width)
+    return in_tank & ~_inside(case, place)
+
+
+def _inside(case, place):
+    """Whether places [spacings] are in an obstacle, or in the bed or wall behind it, (n,) bool."""
+    return _holder(case, place) >= 0
+
+
+def _holder(case, place, margin=0.0):
+    found = np.full(len(place), -1)
+    for number, (low, high) in enumerate(blocks(case)):
+        found[np.all((place > low + margin) & (place < high - margin), axis=1)] = number
+    return found

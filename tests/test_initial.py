@@ -1,0 +1,54 @@
+"""The velocities of the water at the start."""
+
+import numpy as np
+import pytest
+from tanks import make_case
+
+from mpslab import geometry, initial
+from mpslab.keys import CaseError
+
+DISC = {"from": [0.01, 0.0, 0.01], "to": [0.03, 0.01, 0.024], "shape": "disc"}
+RATE = 7.0
+
+
+def water_of(kind, **changes):
+    tank = {"tank.length": 0.05, "tank.height": 0.05, "particles.jitter": 0.1, "water": [DISC]}
+    start = {"initial.type": kind, "initial.rate": RATE}
+    case = make_case({**tank, **start, **changes})
+    particles = geometry.build_particles(case)
+    initial.set_velocity(case, particles)
+    assert np.all(particles.velocity[~particles.fluid] == 0.0)
+    return particles.take(particles.fluid)
+
+
+@pytest.mark.parametrize("width", [0.0, 0.02])
+@pytest.mark.parametrize(
+    ("kind", "matrix"),
+    [
+        ("strain", [[RATE, 0, 0], [0, 0, 0], [0, 0, -RATE]]),
+        ("rotation", [[0, 0, RATE], [0, 0, 0], [-RATE, 0, 0]]),
+    ],
+)
+def test_velocity_is_linear_about_the_centre_of_mass(kind, matrix, width):
+    water = water_of(kind, **{"tank.width": width})
+    away = water.position - water.position.mean(axis=0)
+    np.testing.assert_allclose(water.velocity, away @ np.transpose(matrix), atol=1e-14)
+
+
+@pytest.mark.parametrize("kind", ["strain", "rotation"])
+def test_water_starts_without_momentum(kind):
+    water = water_of(kind)
+    assert np.abs(water.velocity.sum(axis=0)).max() < 1e-15 * np.abs(water.velocity).sum()
+
+
+def test_rate_may_be_negative_but_not_zero():
+    np.testing.assert_allclose(
+        water_of("strain", **{"initial.rate": -RATE}).velocity, -water_of("strain").velocity,
+        atol=1e-14,
+    )  # fmt: skip
+    with pytest.raises(CaseError, match=r"^initial\.rate = 0\.0: must be other than 0 for"):
+        water_of("rotation", **{"initial.rate": 0.0})
+
+
+def test_water_at_rest_has_no_velocity():
+    assert np.all(water_of("rest").velocity == 0.0)
