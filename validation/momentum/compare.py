@@ -11,6 +11,7 @@ from validation.comparison import Comparison
 
 GRADIENTS = ("corrected", "gc", "mps", "symmetric", "cmps")
 RADIUS = 2.1  # [spacings]
+EARLY = 0.1  # of rate times time, at which the pressure in the square is read
 MOMENT = 1.0  # of rate times time, at which the drop is held against theory
 
 
@@ -111,6 +112,7 @@ def _compare_square(result, run):
     figure.line("kinetic energy", time, body.energy / body.energy[0])
     turn = np.array([body.spin(k) for k in range(len(time))])
     figure.line("angular momentum", time, turn / turn[0])
+    result.measure("square_pressure", _pressure(run) / _tension(run))
     result.measure("square_energy", 100.0 * (body.energy[-1] / body.energy[0] - 1.0))
     result.measure("square_spin", 100.0 * (turn[-1] / turn[0] - 1.0))
     for share in (0.5, 1.0):
@@ -119,6 +121,31 @@ def _compare_square(result, run):
             f"Square at rate x time = {time[k]:.2g}", "x [m]", "z [m]", equal=True
         )
         shape.points("water", body.x[k][:, 0], body.x[k][:, 2])
+
+
+def _pressure(run):
+    """Mean pressure of the water in the middle tenth of the square, at a tenth of a turn [Pa]."""
+    _, frame = run.frame_at(EARLY / run.case["initial"]["rate"])
+    wet, x = frame["kind"] == FLUID, frame["position"]
+    near = np.linalg.norm(x - x[wet].mean(axis=0), axis=1) < 0.1 * _side(run)
+    return frame["pressure"][wet & near].mean()
+
+
+def _side(run):
+    (box,) = run.case["water"]
+    return box["to"][0] - box["from"][0]
+
+
+def _tension(run):
+    """Pressure in the middle of a square that begins to spin [Pa] (Colagrossi 2005).
+
+    p = -sum 32 rho A^2 / (m n pi^2) / [(m pi/l)^2 + (n pi/l)^2] sin(m pi/2) sin(n pi/2), m, n odd.
+    """
+    m = np.arange(1, 200, 2)
+    signs = np.sin(0.5 * np.pi * m) / m
+    waves = (m[:, None] ** 2 + m[None, :] ** 2) * (np.pi / _side(run)) ** 2
+    total = np.sum(signs[:, None] * signs[None, :] / waves)
+    return -32.0 * run.density * run.case["initial"]["rate"] ** 2 / np.pi**2 * total
 
 
 class _Body:
