@@ -190,9 +190,11 @@ class Simulation:
                 iterations=report.iterations, residual=report.residual, lost=self.lost,
                 seconds=clock.perf_counter() - began, **self._record.measures(before),
             )  # fmt: skip
-            self._write_due(before)
+        # Before the checkpoint, for the rows up to its step have to be there after a kill.
         if self.step % self.case.parallel.rebalance_every == 0:
             self._take_stock()
+        with self.stopwatch.phase("record"):
+            self._write_due(before)
 
     def _take_stock(self):
         """Write down where the time went since the last time and, among ranks, cut anew."""

@@ -191,9 +191,25 @@ def test_ctrl_c_ends_all_ranks_after_the_same_step(tmp_path):
     assert_goes_on(folder)
 
 
-def spoil(how, folder):
-    line = launch.command(2, str(ROOT / "tests" / "ranks.py"), "spoiled", f'"{how}"', f'"{folder}"')
-    return subprocess.run(line, env=environment(), cwd=ROOT, timeout=30.0, capture_output=True,
+@pytest.mark.parametrize("how, said, steps", [("ctrl-c", "Stopped at t =", [10]),
+                                              ("kill", "signal 9", range(6, 10))])  # fmt: skip
+def test_a_run_that_is_struck_amid_a_cut_loses_only_what_its_checkpoint_lacks(
+    alone, tmp_path, how, said, steps
+):
+    folder = tmp_path / "run"
+    done = spoil(how, folder, "struck")
+    assert done.returncode != 0
+    assert said in done.stdout + done.stderr
+    assert checkpoint.read(folder / "checkpoint.h5")[1]["step"] in steps
+    finished("--resume", str(folder), *END, "--ranks", "2")
+    assert_same_results(alone, folder)
+    for name in ("phases", "decomposition"):
+        assert [row["step"] for row in table(folder, name)] == ["5", "10", "15", "20", "25"]
+
+
+def spoil(how, folder, program="spoiled"):
+    line = launch.command(2, str(ROOT / "tests" / "ranks.py"), program, f'"{how}"', f'"{folder}"')
+    return subprocess.run(line, env=environment(), cwd=ROOT, timeout=TIMEOUT, capture_output=True,
                           text=True)  # fmt: skip
 
 
