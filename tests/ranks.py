@@ -50,6 +50,14 @@ def steps(changes, count, dt):
         return {"iterations": iterations, **digest(everything)}
 
 
+def water(changes):
+    """Number of water particles of each rank."""
+    from tanks import flow_of, make_case
+
+    flow = flow_of(make_case(changes))
+    return flow.domain.from_all(int(flow.particles.fluid.sum()))
+
+
 def sums():
     """Sums and extremes over all ranks of a tank whose particles are numbered."""
     from tanks import flow_of, make_case
