@@ -4,12 +4,13 @@ PYTHON ?= python3
 BIN := .venv/bin
 SOURCES := $(shell find mpslab -name '*.pyx' -o -name '*.pxd') setup.py pyproject.toml
 
-.PHONY: help tank test test-checked lint clean
+.PHONY: help tank test test-checked bench lint clean
 
 help:
 	@echo "make tank   build mpslab and run the plunging breaker; pictures land in runs/"
 	@echo "make test   build mpslab and run its tests"
 	@echo "make test-checked   the unit tests again, every array index in the kernels checked"
+	@echo "make bench  time steps on 1, 2 and 4 ranks; SPACING=0.002 for the paper's resolution"
 	@echo "make lint   check the style of the code"
 	@echo "make clean  remove what was built (results in runs/ stay)"
 
@@ -23,6 +24,10 @@ test: .venv/tested lint
 test-checked: .venv/tested
 	MPSLAB_CHECKED=1 $(BIN)/python -m pip install -q --no-deps --upgrade --target build/checked .
 	PYTHONPATH=build/checked $(BIN)/pytest -m "not slow"
+
+SPACING ?= 0.004
+bench: .venv/benched
+	$(BIN)/python -m pytest benchmarks --spacing=$(SPACING) --benchmark-autosave
 
 lint: .venv/tested
 	$(BIN)/ruff check .
@@ -41,4 +46,8 @@ clean:
 
 .venv/tested: .venv/built
 	$(BIN)/python -m pip install -q -e '.[test]'
+	touch $@
+
+.venv/benched: .venv/built
+	$(BIN)/python -m pip install -q -e '.[test,bench]'
 	touch $@
