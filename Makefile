@@ -4,13 +4,14 @@ PYTHON ?= python3
 BIN := .venv/bin
 SOURCES := $(shell find mpslab -name '*.pyx' -o -name '*.pxd') setup.py pyproject.toml
 
-.PHONY: help tank test test-checked validation lint clean
+.PHONY: help tank test test-checked validation bench lint clean
 
 help:
 	@echo "make tank   build mpslab and run the plunging breaker; pictures land in runs/"
 	@echo "make test   build mpslab and run its tests"
 	@echo "make test-checked   the unit tests again, every array index in the kernels checked"
 	@echo "make validation     the quick validation suite; its report lands in runs/validation/quick"
+	@echo "make bench  time steps on 1, 2 and 4 ranks; SPACING=0.002 for the paper's resolution"
 	@echo "make lint   check the style of the code"
 	@echo "make clean  remove what was built (results in runs/ stay)"
 
@@ -30,6 +31,10 @@ test-checked: .venv/tested
 validation: .venv/tested
 	$(BIN)/python -m validation
 
+SPACING ?= 0.004
+bench: .venv/benched
+	$(BIN)/python -m pytest benchmarks --spacing=$(SPACING) --benchmark-autosave
+
 lint: .venv/tested
 	$(BIN)/ruff check .
 
@@ -47,4 +52,8 @@ clean:
 
 .venv/tested: .venv/built
 	$(BIN)/python -m pip install -q -e '.[test]'
+	touch $@
+
+.venv/benched: .venv/built
+	$(BIN)/python -m pip install -q -e '.[test,bench]'
 	touch $@

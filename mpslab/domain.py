@@ -10,7 +10,6 @@ knows of MPI.
 """
 
 import os
-import time
 from dataclasses import fields
 
 import numpy as np
@@ -18,6 +17,7 @@ import numpy as np
 from mpslab import balance, rebalance
 from mpslab.communicator import Alone, finish, meet, on_root
 from mpslab.particles import ParticleSet
+from mpslab.stopwatch import COMMUNICATION, WAITING, WORK, Stopwatch
 
 # Set by the launchers of MPICH and of Open MPI.
 LAUNCHED = ("PMI_SIZE", "PMIX_RANK", "OMPI_COMM_WORLD_SIZE")
@@ -50,8 +50,8 @@ class Domain:
         Slab of each particle, where `share_out` found it.
     owned : (n,) bool
         False for ghosts.
-    waited : float [s]
-        CPU time spent in communication and in waiting for it.
+    stopwatch : mpslab.stopwatch.Stopwatch
+        Of the step; it also counts what goes into communication and waiting.
     migrated : int
         Particles that came here from other ranks.
     ghosts : int
@@ -64,7 +64,7 @@ class Domain:
         self.rank, self.size = self.comm.rank, self.comm.size
         self.cuts = balance.cut("static", np.zeros(slabs.count), self.size)
         self.slab, self.owned = np.zeros(0, np.int32), np.zeros(0, bool)
-        self.waited, self.migrated, self.ghosts = 0.0, 0, 0
+        self.stopwatch, self.migrated, self.ghosts = Stopwatch(), 0, 0
         self._halo = []
 
     @property
@@ -153,50 +153,57 @@ class Domain:
     def _exchange(self, arrays, rows):
         """Send rows[r] of the arrays to each rank r; what comes in, an entry a rank that sends."""
         kind = np.dtype([(str(k), a.dtype, a.shape[1:]) for k, a in enumerate(arrays)])
-        began = time.process_time()
-        meet(self.comm)
-        counts = self.comm.alltoall([len(r) for r in rows])
-        requests, sent, came = [], [], []
-        for r in range(self.size):
-            if counts[r]:
-                came.append(np.empty(counts[r], kind))
-                requests.append(self.comm.Irecv(came[-1].view(np.uint8), r))
-            if len(rows[r]):
-                packed = np.empty(len(rows[r]), kind)
-                for k, a in enumerate(arrays):
-                    packed[str(k)] = a[rows[r]]
-                sent.append(packed)
-                requests.append(self.comm.Isend(packed.view(np.uint8), r))
-        self._wait(requests, began)
-        return [[np.ascontiguousarray(c[name]) for name in kind.names] for c in came]
+        with self.stopwatch.kind(COMMUNICATION):
+            self._meet()
+            counts = self.comm.alltoall([len(r) for r in rows])
+            requests, sent, came = [], [], []
+            for r in range(self.size):
+                if counts[r]:
+                    came.append(np.empty(counts[r], kind))
+                    requests.append(self.comm.Irecv(came[-1].view(np.uint8), r))
+                if len(rows[r]):
+                    packed = np.empty(len(rows[r]), kind)
+                    for k, a in enumerate(arrays):
+                        packed[str(k)] = a[rows[r]]
+                    sent.append(packed)
+                    requests.append(self.comm.Isend(packed.view(np.uint8), r))
+            self._wait(requests)
+            return [[np.ascontiguousarray(c[name]) for name in kind.names] for c in came]
 
     def refresh(self, *arrays):
         """Give the ghosts' rows of (n, ...) arrays the values of their owners, in place."""
-        began = time.process_time()
-        requests, sent, came = [], [], []
-        for r, give, take in self._halo:
-            for a in arrays:
-                came.append((a, take, np.empty((len(take), *a.shape[1:]), a.dtype)))
-                requests.append(self.comm.Irecv(came[-1][2], r))
-                sent.append(a[give])
-                requests.append(self.comm.Isend(sent[-1], r))
-        self._wait(requests, began)
-        for a, take, values in came:
-            a[take] = values
+        with self.stopwatch.kind(COMMUNICATION):
+            requests, sent, came = [], [], []
+            for r, give, take in self._halo:
+                for a in arrays:
+                    came.append((a, take, np.empty((len(take), *a.shape[1:]), a.dtype)))
+                    requests.append(self.comm.Irecv(came[-1][2], r))
+                    sent.append(a[give])
+                    requests.append(self.comm.Isend(sent[-1], r))
+            self._wait(requests)
+            for a, take, values in came:
+                a[take] = values
 
     def refresh_rows(self, x, first):
         """As `refresh` for the rows of the pressure equation; first[s] is the first of slab s."""
-        began, requests = time.process_time(), []
-        for r in self._beside():
-            left = r < self.rank
-            mine, theirs = (self.begin, self.begin - 1) if left else (self.end - 1, self.end)
-            requests.append(self.comm.Irecv(x[first[theirs] : first[theirs + 1]], r))
-            requests.append(self.comm.Isend(x[first[mine] : first[mine + 1]], r))
-        self._wait(requests, began)
+        if self.size == 1:
+            return
+        with self.stopwatch.kind(COMMUNICATION):
+            requests = []
+            for r in self._beside():
+                left = r < self.rank
+                mine, theirs = (self.begin, self.begin - 1) if left else (self.end - 1, self.end)
+                requests.append(self.comm.Irecv(x[first[theirs] : first[theirs + 1]], r))
+                requests.append(self.comm.Isend(x[first[mine] : first[mine + 1]], r))
+            self._wait(requests)
 
-    def _wait(self, requests, began):
-        finish(requests)
-        self.waited += time.process_time() - began
+    def _wait(self, requests):
+        with self.stopwatch.kind(WAITING):
+            finish(requests)
+
+    def _meet(self):
+        with self.stopwatch.kind(WAITING):
+            meet(self.comm)
 
     def add(self, by_slab):
         """Sum over all slabs of the sums (slabs,) that their owners give, in the order of slabs."""
@@ -204,8 +211,11 @@ class Domain:
 
     def collect(self, by_slab):
         """Values (slabs,) of all slabs, from those that each rank gives for its own, else 0."""
-        began, total = time.process_time(), np.empty_like(by_slab)
-        self._wait([self.comm.Iallreduce(by_slab, total)], began)
+        if self.size == 1:
+            return by_slab
+        total = np.empty_like(by_slab)
+        with self.stopwatch.kind(COMMUNICATION):
+            self._wait([self.comm.Iallreduce(by_slab, total)])
         return total
 
     def total(self, values):
@@ -214,18 +224,19 @@ class Domain:
 
     def from_all(self, item):
         """What each rank gives, a list in the order of ranks, the same on all of them."""
-        began = time.process_time()
-        meet(self.comm)
-        items = self.comm.allgather(item)
-        self.waited += time.process_time() - began
-        return items
+        with self.stopwatch.kind(COMMUNICATION):
+            self._meet()
+            return self.comm.allgather(item)
 
     def on_root(self, act):
         """As the function `on_root`; for the other ranks that is waiting."""
-        began = time.process_time()
-        result = on_root(self.comm, act)
-        self.waited += time.process_time() - began if self.rank else 0.0
-        return result
+
+        def work():
+            with self.stopwatch.kind(WORK):
+                return act()
+
+        with self.stopwatch.kind(WAITING):
+            return on_root(self.comm, work)
 
     def gather(self, particles):
         """The particles of all ranks in the order of gid on rank 0, None elsewhere."""

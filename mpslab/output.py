@@ -10,6 +10,7 @@ from time import monotonic
 
 from mpslab.files import replacing
 from mpslab.provenance import environment
+from mpslab.stopwatch import COMMUNICATION, KINDS, PHASES, WAITING
 
 STEP_COLUMNS = {
     "step": "step",
@@ -38,6 +39,12 @@ DECOMPOSITION_COLUMNS = {
     "migrated": "migrated",
     "ghosts": "ghosts",
 }
+PHASE_COLUMNS = (
+    "step",
+    "time [s]",
+    *(f"{phase}{part} [s/step]"
+      for phase in PHASES for part in ("", f" {COMMUNICATION}", f" {WAITING}")),
+)  # fmt: skip
 LOST_COLUMNS = ("step", "time [s]", "gid", "x [m]", "y [m]", "z [m]", "reason")
 PROBE_QUANTITIES = ("pressure [Pa]", "u [m/s]", "v [m/s]", "w [m/s]")
 
@@ -205,7 +212,7 @@ class RunFolder:
         )
 
     def open_tables(self, gauges=(), probes=(), last_step=None, last_time=None):
-        """Open ``steps.csv``, ``gauges.csv``, ``probes.csv`` and ``lost.csv``.
+        """Open ``steps.csv``, ``phases.csv``, ``gauges.csv``, ``probes.csv`` and ``lost.csv``.
 
         Parameters
         ----------
@@ -220,6 +227,7 @@ class RunFolder:
         probe_columns = [f"{name} {quantity}" for name in probes for quantity in PROBE_QUANTITIES]
         for name, columns, last in (
             ("steps", STEP_COLUMNS.values(), last_step),
+            ("phases", PHASE_COLUMNS, last_step),
             ("lost", LOST_COLUMNS, last_step),
             ("gauges", ["time [s]", *gauge_columns], last_time),
             ("probes", ["time [s]", *probe_columns], last_time),
@@ -229,6 +237,22 @@ class RunFolder:
     def add_step(self, **entries):
         """Add a row to ``steps.csv``; the keywords are the keys of `STEP_COLUMNS`."""
         self._tables["steps"].append([entries[key] for key in STEP_COLUMNS])
+
+    def add_phases(self, step, time, spent):
+        """Add a row to ``phases.csv``: each phase whole, then the parts of it that were not work.
+
+        Parameters
+        ----------
+        step : int
+        time : float [s]
+        spent : dict of (phase, kind) to float [s]
+            For one step; see `mpslab.stopwatch.Stopwatch`.
+        """
+        cells = []
+        for phase in PHASES:
+            work, communication, waiting = (spent.get((phase, kind), 0.0) for kind in KINDS)
+            cells += [work + communication + waiting, communication, waiting]
+        self._tables["phases"].append([step, time, *(round(s, 7) for s in cells)])
 
     def add_gauges(self, time, elevations):
         """Add a row to ``gauges.csv``: time [s] and (n_gauges,) water levels [m]."""

@@ -249,7 +249,9 @@ class Parallel:
         "optimal",
         choices=("static", "centroid", "optimal"),
     )
-    rebalance_every: int = key("time steps from cut to cut; no effect on one process", 20, low=1)
+    rebalance_every: int = key(
+        "time steps from cut to cut, and from row to row of phases.csv", 20, low=1
+    )
 
     def __post_init__(self):
         check_table(self)

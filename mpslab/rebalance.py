@@ -1,10 +1,9 @@
 """Move the cuts between ranks as the water moves, and keep account of it."""
 
-import time
-
 import numpy as np
 
 from mpslab import balance
+from mpslab.stopwatch import COMMUNICATION, WAITING, WORK
 
 # CPU time that a particle of a wall costs, as a share of one of water (measured: 0.01 to 0.08).
 SOLID = 0.05
@@ -42,38 +41,43 @@ class Rebalancer:
 
     def __init__(self, domain, method):
         self.domain, self.method = domain, method
-        self._begin()
+        self._migrated = domain.migrated
 
-    def _begin(self):
-        self._cpu, self._waited = time.process_time(), self.domain.waited
-        self._migrated = self.domain.migrated
-
-    def cut(self, particles):
+    def cut(self, particles, laps):
         """Choose new cuts; the particles follow with the next step.
+
+        Parameters
+        ----------
+        particles : ParticleSet, without ghosts
+        laps : list of dict
+            `mpslab.stopwatch.Stopwatch.lap` of each rank since the last cut.
 
         Returns
         -------
         dict
             By the keys of `mpslab.output.DECOMPOSITION_COLUMNS`, without step and time; particles
-            and CPU seconds of work since the last cut are lists over the ranks.
+            and seconds of work and of all else since the last cut are lists over the ranks.
         """
         domain = self.domain
-        cpu, waited = time.process_time() - self._cpu, domain.waited - self._waited
-        mine = (len(particles), cpu - waited, waited, domain.migrated - self._migrated,
-                domain.ghosts)  # fmt: skip
-        sizes, seconds, waits, migrated, ghosts = zip(*domain.from_all(mine), strict=True)
+        mine = len(particles), domain.migrated - self._migrated, domain.ghosts
+        sizes, migrated, ghosts = zip(*domain.from_all(mine), strict=True)
         work = domain.collect(
             load(self.method, particles.fluid, domain.slab, domain.slabs.count)
         )
         before = balance.imbalance(work, domain.cuts)
         domain.cuts = balance.cut(self.method, work, domain.size)
-        self._begin()
+        self._migrated = domain.migrated
         return {
             "particles": list(sizes),
-            "seconds": [round(s, 4) for s in seconds],
-            "waiting": [round(s, 4) for s in waits],
+            "seconds": [_seconds(lap, WORK) for lap in laps],
+            "waiting": [_seconds(lap, COMMUNICATION, WAITING) for lap in laps],
             "imbalance_before": before,
             "imbalance_after": balance.imbalance(work, domain.cuts),
             "migrated": sum(migrated),
             "ghosts": sum(ghosts),
         }
+
+
+def _seconds(lap, *kinds):
+    """Seconds of some kinds in all phases, to a tenth of a millisecond."""
+    return round(sum(s for (_, kind), s in lap.items() if kind in kinds), 4)

@@ -68,6 +68,22 @@ class Record:
         self.steps.append(tuple(entries[key] for key in STEP_COLUMNS))
         self._write(lambda: self.folder.add_step(**entries))
 
+    def add_phases(self, step, time, laps):
+        """Add a row of where the time went, the mean over the ranks.
+
+        Parameters
+        ----------
+        step : int
+        time : float [s]
+        laps : list of dict
+            `mpslab.stopwatch.Stopwatch.lap` of each rank since the last row.
+        """
+        # After a restart the first row counts the steps since then.
+        steps = min(len(self.steps), self.case.parallel.rebalance_every)
+        places = {at for lap in laps for at in lap}
+        spent = {at: sum(lap.get(at, 0.0) for lap in laps) / len(laps) / steps for at in places}
+        self._write(lambda: self.folder.add_phases(step, time, spent))
+
     def add_decomposition(self, **entries):
         """Add a row; the keywords are the keys of `mpslab.output.DECOMPOSITION_COLUMNS`."""
         self._write(lambda: self.folder.add_decomposition(**entries))

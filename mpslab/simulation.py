@@ -131,9 +131,9 @@ class Simulation:
         return self._record.series("probes")
 
     @property
-    def phases(self):
-        """Seconds spent in ghosts, neighbours, operators, assembly and solve."""
-        return dict(self._flow.stopwatch.seconds)
+    def stopwatch(self):
+        """Where the time of the steps went on this rank, a `mpslab.stopwatch.Stopwatch`."""
+        return self._flow.stopwatch
 
     def run(self, until=None, progress=None):
         """Run to a time; the last step may end a little later, for no step is cut short.
@@ -171,6 +171,10 @@ class Simulation:
 
     def advance(self):
         """One time step, written down; raises RunFailed when no other may follow."""
+        with self.stopwatch.phase("rest"):
+            self._advance()
+
+    def _advance(self):
         began, before = clock.perf_counter(), self.time
         check_finite(self._flow, self.step)
         speed = max(self.domain.from_all(diagnostics.max_speed(self.particles)))
@@ -180,14 +184,24 @@ class Simulation:
         self._take_out_lost()
         check_step(self._flow, report, self.dt, self.step)
         check_lost(self._flow, self.lost, self.at_start, self.step)
-        self._record.add_step(
-            step=self.step, time=self.time, dt=self.dt, dt_limit=limit,
-            iterations=report.iterations, residual=report.residual, lost=self.lost,
-            seconds=clock.perf_counter() - began, **self._record.measures(before),
-        )  # fmt: skip
-        self._write_due(before)
-        if self.domain.size > 1 and self.step % self.case.parallel.rebalance_every == 0:
-            cut = self._rebalancer.cut(self.particles)
+        with self.stopwatch.phase("record"):
+            self._record.add_step(
+                step=self.step, time=self.time, dt=self.dt, dt_limit=limit,
+                iterations=report.iterations, residual=report.residual, lost=self.lost,
+                seconds=clock.perf_counter() - began, **self._record.measures(before),
+            )  # fmt: skip
+        # Before the checkpoint, for the rows up to its step have to be there after a kill.
+        if self.step % self.case.parallel.rebalance_every == 0:
+            self._take_stock()
+        with self.stopwatch.phase("record"):
+            self._write_due(before)
+
+    def _take_stock(self):
+        """Write down where the time went since the last time and, among ranks, cut anew."""
+        laps = self.domain.from_all(self.stopwatch.lap())
+        self._record.add_phases(self.step, self.time, laps)
+        if self.domain.size > 1:
+            cut = self._rebalancer.cut(self.particles, laps)
             self._record.add_decomposition(step=self.step, time=self.time, **cut)
 
     def _take_out_lost(self):

@@ -13,7 +13,6 @@ from mpslab.particles import ParticleSet
 from mpslab.piston import Piston
 from mpslab.slabs import make_slabs
 from mpslab.stencil import Stencil, make_stencil
-from mpslab.stopwatch import Stopwatch
 
 
 @dataclass
@@ -48,9 +47,13 @@ class Flow:
     pair_terms: tuple
     stabilisers: tuple
     neighbors: NeighborList = field(default_factory=NeighborList)
-    stopwatch: Stopwatch = field(default_factory=Stopwatch)
     correction: np.ndarray | None = None
     time: float = 0.0
+
+    @property
+    def stopwatch(self):
+        """That of the domain, which counts communication and waiting."""
+        return self.domain.stopwatch
 
     @property
     def extrapolates(self):

@@ -1,21 +1,72 @@
-"""Where the time of a step goes."""
+"""Where the time of a step goes: into which phase, and how much of it to other ranks."""
 
-import time
 from collections import defaultdict
-from contextlib import contextmanager
+from time import perf_counter
+
+PHASES = ("ghosts", "neighbours", "operators", "assembly", "solve", "record", "rest")
+WORK, COMMUNICATION, WAITING = KINDS = ("work", "communication", "waiting")
 
 
 class Stopwatch:
-    """Seconds spent in each named phase, summed over the run."""
+    """Wall time by phase and kind, summed over the run.
+
+    Both are opened by ``with``, one inside another; time counts for the innermost alone, and
+    outside of all phases not at all.  Communication is what a rank does to pack, send, receive and
+    unpack.  Waiting is until another rank is there, or its message: how long that was under way
+    cannot be told apart.
+
+    Attributes
+    ----------
+    spent : dict of (phase, kind) to float [s]
+    """
 
     def __init__(self):
-        self.seconds = defaultdict(float)
+        self.spent = defaultdict(float)
+        self._open, self._since = (None, WORK), perf_counter()
+        self._at_lap = {}
 
-    @contextmanager
     def phase(self, name):
-        """Add the time of a ``with`` block to the phase."""
-        start = time.perf_counter()
-        try:
-            yield
-        finally:
-            self.seconds[name] += time.perf_counter() - start
+        """Count the time of a ``with`` block for a phase, as work."""
+        return _Turn(self, (name, WORK))
+
+    def kind(self, name):
+        """Count the time of a ``with`` block as another kind, in the phase that is open."""
+        return _Turn(self, (self._open[0], name))
+
+    def turn(self, to):
+        """Count for another (phase, kind) from now on; returns the one before."""
+        now, before = perf_counter(), self._open
+        if before[0] is not None:
+            self.spent[before] += now - self._since
+        self._open, self._since = to, now
+        return before
+
+    @property
+    def seconds(self):
+        """Seconds of each phase, whatever the kind."""
+        total = defaultdict(float)
+        for (phase, _), seconds in self.spent.items():
+            total[phase] += seconds
+        return dict(total)
+
+    def lap(self):
+        """Seconds by (phase, kind) since the last lap, up to now."""
+        self.turn(self._open)
+        spent = {at: s - self._at_lap.get(at, 0.0) for at, s in self.spent.items()}
+        self._at_lap = dict(self.spent)
+        return spent
+
+
+class _Turn:
+    """A ``with`` block of a stopwatch; a class, for a solver opens some in each iteration."""
+
+    __slots__ = ("back", "to", "watch")
+
+    def __init__(self, watch, to):
+        self.watch, self.to = watch, to
+
+    def __enter__(self):
+        self.back = self.watch.turn(self.to)
+
+    def __exit__(self, *error):
+        self.watch.turn(self.back)

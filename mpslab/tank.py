@@ -193,8 +193,8 @@ def _report(simulation, options, tell):
 
 
 def _tell_cost(simulation, tell):
-    phases, steps = simulation.phases, len(simulation.steps)
-    total = float(simulation.steps["seconds"].sum())
+    phases, steps = simulation.stopwatch.seconds, len(simulation.steps)
+    total = sum(phases.values())
     if steps == 0:
         return
     shares = ", ".join(f"{name} {100 * s / total:.0f} %" for name, s in phases.items())

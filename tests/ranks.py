@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -47,6 +48,14 @@ def steps(changes, count, dt):
     everything = flow.domain.gather(flow.particles)
     if everything is not None:
         return {"iterations": iterations, **digest(everything)}
+
+
+def water(changes):
+    """Number of water particles of each rank."""
+    from tanks import flow_of, make_case
+
+    flow = flow_of(make_case(changes))
+    return flow.domain.from_all(int(flow.particles.fluid.sum()))
 
 
 def sums():
@@ -112,6 +121,44 @@ def spoiled(how, folder):
         output.RunFolder.add_step = full
     simulation.advance = spoil
     sys.exit(tank.main([*SMALL, "--out", folder]))
+
+
+def struck(how, folder):
+    """A run that Ctrl-C, or the kill of rank 1, hits amid its second cut."""
+    import time
+
+    from mpslab import rebalance, tank
+    from mpslab.domain import world
+
+    load, calls, came = rebalance.load, [], []
+
+    def strike(*arguments):
+        calls.append(1)
+        if len(calls) == 3:  # the first shares out the particles at the start
+            press_ctrl_c() if how == "ctrl-c" else kill()
+        return load(*arguments)
+
+    def press_ctrl_c():
+        handler = signal.getsignal(signal.SIGINT)
+        signal.signal(signal.SIGINT, lambda *what: (handler(*what), came.append(1)))
+        world().Barrier()
+        if world().rank == 0:
+            os.kill(launcher(), signal.SIGINT)
+        while not came:
+            time.sleep(0.01)
+
+    def kill():
+        if world().rank == 1:
+            os.kill(os.getpid(), signal.SIGKILL)
+
+    rebalance.load = strike
+    sys.exit(tank.main([*SMALL, "--until", "0.015", "--out", folder]))
+
+
+def launcher():
+    """Process of mpiexec: the parent of the proxy that is the parent of this one."""
+    proxy = Path(f"/proc/{os.getppid()}/stat").read_text()
+    return int(proxy.rpartition(")")[2].split()[1])
 
 
 SMALL = ["plunging_breaker", "--set", "tank.width=0", "--set", "scheme.solver=piccg",

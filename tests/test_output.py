@@ -16,6 +16,12 @@ STEPS_HEADER = (
     "kinetic_energy [J],potential_energy [J],volume [m3],piston_force [N],piston_work [J],lost"
 )
 
+PHASE_CELLS = [
+    f"{phase}{part} [s/step]"
+    for phase in ("ghosts", "neighbours", "operators", "assembly", "solve", "record", "rest")
+    for part in ("", " communication", " waiting")
+]
+
 
 def step_row(step):
     """A row of steps.csv with awkward numbers."""
@@ -41,6 +47,7 @@ def write_steps(folder, steps):
     for step in steps:
         time = step / 3
         folder.add_step(**step_row(step))
+        folder.add_phases(step, time, {("solve", "work"): 0.1 * step, ("rest", "waiting"): 0.5})
         folder.add_gauges(time, np.array([time / 7, math.nan]))
         folder.add_probes(time, [(1000.0 / 3, 0.1, 0.0, time)])
         folder.add_lost(step, time, [step], np.full((1, 3), time), "left, upwards")
@@ -63,6 +70,7 @@ def test_headers_are_the_promised_ones(folder):
     headers = {path.stem: path.read_text() for path in folder.path.glob("*.csv")}
     assert headers == {
         "steps": STEPS_HEADER + "\n",
+        "phases": "step,time [s]," + ",".join(PHASE_CELLS) + "\n",
         "gauges": "time [s],g1 [m],g2 [m]\n",
         "probes": "time [s],p1 pressure [Pa],p1 u [m/s],p1 v [m/s],p1 w [m/s]\n",
         "lost": "step,time [s],gid,x [m],y [m],z [m],reason\n",
@@ -81,6 +89,20 @@ def test_numbers_come_back_with_the_same_bits(folder):
     assert rows(folder.path / "lost.csv")[1][-1] == "left, upwards"
 
 
+def test_a_phase_counts_its_work_its_communication_and_its_waiting(folder):
+    spent = {("solve", "work"): 0.25, ("solve", "communication"): 0.5, ("rest", "waiting"): 1.0}
+    folder.add_phases(20, 0.5, spent)
+    folder.close()
+    row = dict(zip(*rows(folder.path / "phases.csv"), strict=True))
+    assert (row.pop("step"), row.pop("time [s]")) == ("20", "0.5")
+    assert {name: float(cell) for name, cell in row.items() if float(cell)} == {
+        "solve [s/step]": 0.75,
+        "solve communication [s/step]": 0.5,
+        "rest [s/step]": 1.0,
+        "rest waiting [s/step]": 1.0,
+    }
+
+
 def test_resumed_tables_are_those_of_an_uninterrupted_run(folder, tmp_path):
     write_steps(folder, range(1, 11))
     folder.close()
@@ -94,7 +116,7 @@ def test_resumed_tables_are_those_of_an_uninterrupted_run(folder, tmp_path):
     resumed.open_tables(["g1", "g2"], ["p1"], last_step=5, last_time=5 / 3)
     write_steps(resumed, range(6, 11))
     resumed.close()
-    for name in ("steps", "gauges", "probes", "lost"):
+    for name in ("steps", "phases", "gauges", "probes", "lost"):
         whole, pieces = ((f.path / f"{name}.csv").read_bytes() for f in (folder, resumed))
         assert pieces == whole
 

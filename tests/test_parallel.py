@@ -12,6 +12,7 @@ import pytest
 from ranks import ROOT, SMALL, TIMEOUT, environment, tank
 
 from mpslab import checkpoint, launch
+from mpslab.stopwatch import PHASES
 
 FILES = ("particles.vtkhdf", "checkpoint.h5", "gauges.csv", "probes.csv", "lost.csv")
 END = ["--until", "0.015"]
@@ -68,6 +69,8 @@ def test_a_checkpoint_goes_on_with_any_number_of_ranks(alone, tmp_path):
     finished("--resume", folder, "--until", "0.009", "--ranks", "2")
     finished("--resume", folder, *END)
     assert table(tmp_path / "run") == table(alone)
+    steps = [[row["step"] for row in table(f, "phases")] for f in (tmp_path / "run", alone)]
+    assert steps[0] == steps[1]
     last = [checkpoint.read(f / "checkpoint.h5")[0] for f in (alone, tmp_path / "run")]
     for name, array in last[0].items():
         assert array.tobytes() == last[1][name].tobytes(), name
@@ -84,6 +87,25 @@ def test_rebalancing_is_written_down(tmp_path):
         assert len(row["work of each rank [s]"].split()) == 2
         assert 1.0 <= float(row["imbalance after"]) <= float(row["imbalance before"]) < 1.2
         assert int(row["ghosts"]) > 0
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_where_the_time_went_is_written_down(alone, tmp_path, ranks):
+    folder = alone if ranks == 1 else tmp_path / "run"
+    if ranks == 2:
+        finished(*SMALL, *END, "--out", str(folder), "--ranks", "2")
+    rows, steps = table(folder, "phases"), len(table(folder))
+    assert [int(row["step"]) for row in rows] == list(range(5, steps + 1, 5))
+    waiting = whole = 0.0
+    for row in rows:
+        for phase in PHASES:
+            seconds, talking, idle = (
+                float(row[f"{phase}{part} [s/step]"]) for part in ("", " communication", " waiting")
+            )
+            assert 0.0 <= talking + idle <= seconds + 2e-7
+            waiting, whole = waiting + idle, whole + seconds
+    assert 0.0 < whole < 60.0
+    assert waiting > 0.001 * whole if ranks == 2 else waiting < 0.05 * whole
 
 
 @pytest.mark.parametrize(
@@ -169,9 +191,25 @@ def test_ctrl_c_ends_all_ranks_after_the_same_step(tmp_path):
     assert_goes_on(folder)
 
 
-def spoil(how, folder):
-    line = launch.command(2, str(ROOT / "tests" / "ranks.py"), "spoiled", f'"{how}"', f'"{folder}"')
-    return subprocess.run(line, env=environment(), cwd=ROOT, timeout=30.0, capture_output=True,
+@pytest.mark.parametrize("how, said, steps", [("ctrl-c", "Stopped at t =", [10]),
+                                              ("kill", "signal 9", range(6, 10))])  # fmt: skip
+def test_a_run_that_is_struck_amid_a_cut_loses_only_what_its_checkpoint_lacks(
+    alone, tmp_path, how, said, steps
+):
+    folder = tmp_path / "run"
+    done = spoil(how, folder, "struck")
+    assert done.returncode != 0
+    assert said in done.stdout + done.stderr
+    assert checkpoint.read(folder / "checkpoint.h5")[1]["step"] in steps
+    finished("--resume", str(folder), *END, "--ranks", "2")
+    assert_same_results(alone, folder)
+    for name in ("phases", "decomposition"):
+        assert [row["step"] for row in table(folder, name)] == ["5", "10", "15", "20", "25"]
+
+
+def spoil(how, folder, program="spoiled"):
+    line = launch.command(2, str(ROOT / "tests" / "ranks.py"), program, f'"{how}"', f'"{folder}"')
+    return subprocess.run(line, env=environment(), cwd=ROOT, timeout=TIMEOUT, capture_output=True,
                           text=True)  # fmt: skip
 
 

@@ -38,6 +38,15 @@ def test_static_cuts_give_the_same_bytes_as_the_best_ones():
     assert start("steps", 3, static, 10, DT) == start("steps", 3, PISTON, 10, DT)
 
 
+@pytest.mark.parametrize("solver", ["scg", "piccg"])
+def test_ranks_without_water_leave_the_same_bytes(solver):
+    box = {"from": [0.0, 0.0, 0.0], "to": [0.06, 0.0, 0.04]}
+    changes = {"tank.length": 0.4, "tank.depth": 0.04, "water": [box], "scheme.solver": solver,
+               "parallel.balance": "static"}  # fmt: skip
+    assert 0 in start("water", 4, changes)
+    assert start("steps", 4, changes, 10, DT) == start("steps", 1, changes, 10, DT)
+
+
 def test_sums_are_added_slab_by_slab_on_any_number_of_ranks():
     alone, other = start("sums", 1), start("sums", 3)
     assert other["total"] == alone["total"]

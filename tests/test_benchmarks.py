@@ -1,0 +1,68 @@
+"""The benchmarks measure what they say."""
+
+import sys
+
+import pytest
+from ranks import ROOT
+
+from mpslab.stopwatch import PHASES
+
+sys.path.append(str(ROOT))  # last: the package under test goes first
+
+from benchmarks import pair, program
+from benchmarks.replay import Replay
+
+SMALL = {"tank.width": 0.0, "particles.spacing": 0.006}
+
+
+@pytest.fixture(scope="module")
+def small():
+    """The small tank on one rank and on two."""
+    return [program.run(ranks, SMALL, warm=1, steps=3) for ranks in (1, 2)]
+
+
+def test_ranks_time_the_same_steps_of_the_same_tank(small):
+    one, two = small
+    assert (one["ranks"], two["ranks"]) == (1, 2)
+    for key in ("particles", "water", "iterations"):
+        assert one[key] == two[key] > 0
+    assert one["imbalance"] == 1.0 < two["imbalance"] < 1.5
+
+
+def test_phases_add_up_to_the_step(small):
+    for found in small:
+        assert list(found["phases"]) == list(PHASES)
+        parts = sum(sum(kinds.values()) for kinds in found["phases"].values())
+        assert parts == pytest.approx(sum(found["seconds"]) / 3, rel=0.05)
+
+
+def test_messages_of_every_size_are_timed():
+    process = program.start(2, "time_messages", slabs=8, rows=[10, 1000], repeats=5)
+    found = program.result(process)
+    assert found["sum"] > 0.0
+    assert len(found["exchange"]) == 2
+    assert min(found["exchange"]) > 0.0
+
+
+def test_a_program_that_fails_says_why():
+    with pytest.raises(RuntimeError, match=r"tank\.depth = -1"):
+        program.run(1, {"tank.depth": -1})
+
+
+def test_a_table_of_pairs_has_the_median_of_the_ratios(small):
+    one, two = small
+    slow = {**two, "phases": {p: {k: 4.0 * s for k, s in kinds.items()}
+                              for p, kinds in one["phases"].items()}}  # fmt: skip
+    lines = pair.table([(one, one), (one, slow), (one, slow)])
+    step = next(line for line in lines if line.startswith("| step "))
+    assert "| 0.25 | 0.25 to 1.00 |" in step
+    assert len(lines) == 2 + 1 + len(PHASES)
+
+
+def test_steps_pass_again_with_the_times_they_took():
+    clock = Replay()
+    clock.seconds = iter([0.5, 0.25])
+    clock.step()
+    assert clock() == 0.5
+    clock.step()
+    assert clock() == 0.75
