@@ -204,7 +204,7 @@ class Scheme:
     shifting_strength: float = key(
         "strength of 'shifting' and 'corrected_shifting'", 0.25, low=0, high=1
     )
-    ds_distance: float = key("distance kept by 'ds'", 0.9, unit="spacings", above=0, high=1)
+    ds_distance: float = key("distance kept by 'ds'", 0.8, unit="spacings", above=0, high=1)
     collision_distance: float = key(
         "distance kept by 'collision'", 0.5, unit="spacings", above=0, high=1
     )

@@ -48,7 +48,7 @@ def energy(simulation):
 
 
 def test_stretched_drop_follows_the_ellipse_and_keeps_its_energy():
-    """Without "ds", which takes the energy out of pairs that the stretch brings together."""
+    """Without "ds", which takes energy out of rows that the stretch brings within its distance."""
     models = {"scheme.stabiliser": ["corrected_shifting"], "particles.jitter": 0.0}
     simulation = Simulation(free("strain", "disc", 0.1, **models))
     before, start = energy(simulation), semi_axes(water_of(simulation)[0])

@@ -5,14 +5,16 @@ import numpy as np
 from mpslab.kernels import repulsion
 
 STAGE = "corrected"
+PASSES = 2  # the second parts those whom the first pushed together; a ghost is right after one
 
 
 def stabilise(particles, before, neighbors, stencil, correction, dt, scheme):
     """Remove the overlap of pairs below ``ds_distance`` (after Tsuruta et al. 2013)."""
     move = np.empty_like(particles.position)
-    repulsion.overlap(
-        particles.position, before, particles.kind, neighbors.indptr, neighbors.indices,
-        stencil, scheme.ds_distance * stencil.spacing, move,
-    )  # fmt: skip
-    particles.position += move
-    particles.velocity += move / dt
+    for _ in range(PASSES):
+        repulsion.overlap(
+            particles.position, before, particles.kind, neighbors.indptr, neighbors.indices,
+            stencil, scheme.ds_distance * stencil.spacing, move,
+        )  # fmt: skip
+        particles.position += move
+        particles.velocity += move / dt
