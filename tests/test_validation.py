@@ -1,6 +1,7 @@
 """The validation suite: its cases are complete, its verdicts right, its runs are kept."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -79,6 +80,14 @@ def test_a_known_miss_is_a_miss_and_no_surprise():
 
 def test_a_known_miss_that_has_healed_is_a_surprise():
     assert "take it off" in judge.unexpected(judged(0.5, KNOWN))[0]
+
+
+def test_within_the_noise_of_an_edge_there_is_no_surprise():
+    case = replace(MADE, criteria=(replace(MADE.criteria[0], noise=0.1),))
+    for value, surprises in ((1.05, 0), (0.95, 0), (1.2, 1)):
+        metrics = judge.judge(case, "quick", {"a": value}, {})
+        found = judge.unexpected([{"case": "made", "metrics": metrics}])
+        assert len(found) == surprises, value
 
 
 def test_what_was_measured_must_have_a_criterion_and_the_other_way_round():

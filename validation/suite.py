@@ -52,7 +52,11 @@ class PlannedRun:
 
 @dataclass(frozen=True)
 class Criterion:
-    """A metric and the band it must lie in; None is no bound."""
+    """A metric and the band it must lie in; None is no bound.
+
+    A value nearer to an edge of the band than `noise` may fall on either side of it with another
+    seed, or on another machine.
+    """
 
     id: str
     title: str
@@ -60,7 +64,13 @@ class Criterion:
     unit: str = ""
     low: float | None = None
     high: float | None = None
+    noise: float = 0.0
     suites: tuple = SUITES
+
+    def at_an_edge(self, value):
+        """Whether a value is within the noise of an edge of the band."""
+        edges = [edge for edge in (self.low, self.high) if edge is not None]
+        return any(abs(value - edge) < self.noise for edge in edges)
 
     def met(self, value):
         """Whether a value lies in the band; one that is not a number does not."""

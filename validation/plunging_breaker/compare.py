@@ -16,7 +16,7 @@ HEIGHT, DEEP_HEIGHT = 0.0196, 0.0186  # [m] of the paper, and unshoaled
 SLOPE, TOE = 0.1, 0.2
 SECOND, THIRD = (1.2, 1.75), (1.9, 2.6)  # seconds in which these waves break
 BEFORE = (0.3, 0.8)  # seconds before the first wave breaks
-COMPANY = 3  # particles within two spacings, without which one is spray
+COMPANY = 1  # others within two spacings: the tip of a row has one or two, spray has none
 
 
 def compare(runs):

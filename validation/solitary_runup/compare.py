@@ -11,7 +11,7 @@ from validation.comparison import Comparison
 DATA = Path(__file__).parent / "data"
 COT = 19.85
 TIMES = (15, 20, 25, 30)  # of the measured profiles, in sqrt(d/g)
-COMPANY = 3  # particles within two spacings, without which one is spray
+COMPANY = 1  # others within two spacings: the tip of a row has one or two, spray has none
 
 
 def compare(runs):
