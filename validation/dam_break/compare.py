@@ -50,17 +50,18 @@ def _label(name, run):
 def _compare_front(result, runs):
     front, height = _read("mm1952_n2_front.csv"), _read("mm1952_n2_height.csv")
     place = result.figure("Front of the column, time shifted", "T = t sqrt(2g/a)", "Z = x / a")
-    top = result.figure("Height at the rear wall, time shifted", "t sqrt(g/a)", "height / 2a")
+    top = result.figure("Height at the rear wall", "t sqrt(g/a)", "height / 2a")
     measured = front["t [s]"], front["x_front [m]"] / BASE
     rows, scale = [], np.sqrt(2.0 * 9.81 / BASE)
     for name, run in runs.items():
         time, x = _front(run)
         shift, error = _fit(time, x / BASE, *measured)
         rear, level = run.gauge("rear")
-        seen = np.interp(height["t [s]"] + shift, rear, level / (2.0 * BASE))
-        miss = np.sqrt(np.mean((seen - height["H=eta/(2a) [-]"]) ** 2))
+        part = height["t [s]"] <= rear[-1]
+        seen = np.interp(height["t [s]"][part], rear, level / (2.0 * BASE))
+        miss = np.sqrt(np.mean((seen - height["H=eta/(2a) [-]"][part]) ** 2))
         place.line(_label(name, run), (time - shift) * scale, x / BASE)
-        top.line(_label(name, run), (rear - shift) * np.sqrt(9.81 / BASE), level / (2.0 * BASE))
+        top.line(_label(name, run), rear * np.sqrt(9.81 / BASE), level / (2.0 * BASE))
         rows.append([_label(name, run), shift * scale, error, miss])
     place.points("Martin & Moyce 1952", measured[0] * scale, measured[1])
     top.points("Martin & Moyce 1952", height["tau=t*sqrt(g/a) [-]"], height["H=eta/(2a) [-]"])

@@ -15,6 +15,7 @@ DATA = Path(__file__).parent / "data" / "cornell_lab_slope1to10_breakers.csv"
 HEIGHT, DEEP_HEIGHT = 0.0196, 0.0186  # [m] of the paper, and unshoaled
 SLOPE, TOE = 0.1, 0.2
 SECOND, THIRD = (1.2, 1.75), (1.9, 2.6)  # seconds in which these waves break
+LATER = 1.5  # [s]: the first wave has run down
 BEFORE = (0.3, 0.8)  # seconds before the first wave breaks
 COMPANY = 1  # others within two spacings: the tip of a row has one or two, spray has none
 
@@ -32,8 +33,7 @@ def compare(runs):
     result.measure("second_index", first.second.index)
     if "standard-2mm-long" in runs:
         result.measure("third_depth", 1e3 * first.third.depth)
-    hunt = breaking.hunt_runup(DEEP_HEIGHT, first.period, SLOPE, first.run.gravity)
-    result.measure("runup", first.runup / hunt)
+        result.measure("runup", first.runup(since=LATER) / _hunt(first))
     every = [run for name, run in runs.items() if name.startswith("standard")]
     result.measure("volume", max((_growth(run) for run in every), key=abs))
     result.measure("lost", sum(run.steps["lost"][-1] for run in every))
@@ -88,18 +88,22 @@ class _Waves:
         self.second = _Breaker(run, rows, SECOND)
         self.third = _Breaker(run, rows, THIRD)
 
-    @property
-    def runup(self):
-        """Highest place that water with others around it reached on the slope [m]."""
+    def runup(self, since=0.0):
+        """Highest place that water with others around it reached on the slope after a time [m]."""
         x = 0.0
-        for _, position, _ in self.run.water():
+        for time, position, _ in self.run.water():
             tongue = position[position[:, 0] > 0.55]
-            if len(tongue):
+            if time >= since and len(tongue):
                 around = cKDTree(tongue).query_ball_point(
                     tongue, 2.0 * self.run.spacing, return_length=True
                 )
                 x = max(x, tongue[around > COMPANY, 0].max(initial=0.0))
         return SLOPE * (x - TOE) - self.run.depth
+
+
+def _hunt(wave):
+    """Run-up of a train of waves [m]."""
+    return breaking.hunt_runup(DEEP_HEIGHT, wave.period, SLOPE, wave.run.gravity)
 
 
 def _growth(run):
@@ -116,6 +120,8 @@ def _tell_waves(result, waves):
         for label, b in (("second", w.second), ("third", w.third))
         if np.isfinite(b.time)
     ]
+    rises = [[w.name, 1e3 * w.runup(), w.runup() / _hunt(w)] for w in waves]
+    result.table("Highest run-up, of all waves", ["run", "run-up [mm]", "over Hunt's"], rises)
     period, gravity = waves[0].period, waves[0].run.gravity
     depth, height = breaking.breaking_point(DEEP_HEIGHT, period, SLOPE, gravity)
     lines.append(["Goda 2010", "regular", "", "", 1e3 * depth, 1e3 * height, height / depth])

@@ -32,7 +32,7 @@ def compare(runs):
     result.measure("order", order)
     _draw(result, "Amplitude 0.1 h", [n for n in waves if n != "high-2mm"], waves)
     _draw(result, "Amplitude 0.25 h", ["high-2mm"], waves)
-    columns = ["run", *(f"at {t:g} T" for t in PEAKS), "reference at 1.75 T", "level [%]"]
+    columns = ["run", *(f"at {t:g} T" for t in PEAKS), "reference at 1.75 T", "level [spacings]"]
     result.table("Peaks of the first mode over its linear amplitude", columns, [
         [name, *(wave.peak(t) for t in PEAKS), wave.reference_peak(1.75), wave.rise]
         for name, wave in waves.items()
@@ -62,7 +62,7 @@ class _Wave:
                 for t, x, _ in run.water()]  # fmt: skip
         time, mode, height = np.array(rows).T
         self.time, self.mode = time * frequency / (2.0 * np.pi), mode / amplitude
-        self.rise = 100.0 * (height[-1] / height[0] - 1.0) if len(height) > 1 else np.nan
+        self.rise = 2.0 * (height[-1] - height[0]) / self.spacing
         time, mode = standing_wave(amplitude, length, depth, run.gravity, frequency, 2.0)
         self.reference = time * frequency / (2.0 * np.pi), mode / amplitude
 
