@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from validation.comparison import Comparison
+from validation.data import read_columns
 
 DATA = Path(__file__).parent / "data" / "spheric2_kleefsman2005.csv"
 IMPACT = 500.0  # [Pa] at P1: the water has come
@@ -15,9 +16,7 @@ def compare(runs):
     """Levels, impact and impulses of the one run."""
     result = Comparison()
     (run,) = runs.values()
-    with DATA.open() as file:
-        heading = file.readline().strip().split(",")
-        data = dict(zip(heading, np.loadtxt(file, delimiter=",").T, strict=True))
+    data = read_columns(DATA)
     _compare_levels(result, run, data)
     _compare_pressures(result, run, data)
     return result

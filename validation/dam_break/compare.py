@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 from scipy.optimize import minimize_scalar
-from scipy.spatial import cKDTree
 
 from validation.comparison import Comparison
+from validation.data import foremost, read_columns
 
 DATA = Path(__file__).parent / "data"
 BASE = 0.05715  # [m]
@@ -14,8 +14,7 @@ HEIGHT = 0.30  # [m] of the column of Lobovsky et al.
 IMPACT = 0.2  # of rho g H: a pressure that says the water has come
 WINDOW = 0.5  # seconds from the impact on
 MEAN = 0.01  # seconds over which pressures are averaged
-COMPANY = 3  # particles within two spacings, without which one is spray
-EXPERIMENT = "ETSIN01", "ETSIN02"
+COMPANY = 3  # others within two spacings, without which a particle is spray
 
 
 def compare(runs):
@@ -26,13 +25,6 @@ def compare(runs):
     _compare_levels(result, impacts)
     _compare_pressure(result, impacts)
     return result
-
-
-def _read(name):
-    """Columns of a file of measurements, by their headings."""
-    with (DATA / name).open() as file:
-        heading = file.readline().strip().split(",")
-        return dict(zip(heading, np.loadtxt(file, delimiter=",").T, strict=True))
 
 
 def _standard(runs):
@@ -48,7 +40,10 @@ def _label(name, run):
 
 
 def _compare_front(result, runs):
-    front, height = _read("mm1952_n2_front.csv"), _read("mm1952_n2_height.csv")
+    front, height = (
+        read_columns(DATA / "mm1952_n2_front.csv"),
+        read_columns(DATA / "mm1952_n2_height.csv"),
+    )
     place = result.figure("Front of the column, time shifted", "T = t sqrt(2g/a)", "Z = x / a")
     top = result.figure("Height at the rear wall", "t sqrt(g/a)", "height / 2a")
     measured = front["t [s]"], front["x_front [m]"] / BASE
@@ -77,9 +72,7 @@ def _front(run):
     rows = []
     for time, x, _ in run.water():
         low = x[x[:, 2] < 2.0 * run.spacing]
-        tree = cKDTree(low)
-        around = tree.query_ball_point(low, 2.0 * run.spacing, return_length=True) - 1
-        rows.append((time, low[around >= COMPANY, 0].max() + 0.5 * run.spacing))
+        rows.append((time, foremost(low, run.spacing, COMPANY) + 0.5 * run.spacing))
     return np.array(rows).T
 
 
@@ -94,7 +87,7 @@ def _fit(time, z, measured_time, measured_z):
 
 
 def _compare_levels(result, runs):
-    data = _read("lobovsky2014_levels_H300.csv")
+    data = read_columns(DATA / "lobovsky2014_levels_H300.csv")
     finest, rows = _standard(runs), []
     for gauge in ("H1", "H2", "H3", "H4"):
         columns = [name for name in data if name.startswith(gauge)]
@@ -118,8 +111,8 @@ def _compare_levels(result, runs):
 
 
 def _compare_pressure(result, runs):
-    band = _read("lobovsky2014_pressure_sensor2_H300_percentiles_1ms.csv")
-    event = _read("lobovsky2014_pressure_H300_event5_1ms.csv")
+    band = read_columns(DATA / "lobovsky2014_pressure_sensor2_H300_percentiles_1ms.csv")
+    event = read_columns(DATA / "lobovsky2014_pressure_H300_event5_1ms.csv")
     time = band["t [s]"]
     low, median, high = (_mean(time, band[name]) for name in list(band)[2:])
     came = _arrival(time, median)

@@ -4,16 +4,16 @@ import csv
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from mpslab import breaking, gauges, measures
 from mpslab.overturning import JET
 from mpslab.snapshots import middle_slice
 from validation.comparison import Comparison
+from validation.data import foremost
 
 DATA = Path(__file__).parent / "data" / "cornell_lab_slope1to10_breakers.csv"
 HEIGHT, DEEP_HEIGHT = 0.0196, 0.0186  # [m] of the paper, and unshoaled
-SLOPE, TOE = 0.1, 0.2
+SLOPE, TOE, BEACH = 0.1, 0.2, 0.55  # [-], [m], [m]: water beyond runs up
 SECOND, THIRD = (1.2, 1.75), (1.9, 2.6)  # seconds in which these waves break
 LATER = 1.5  # [s]: the first wave has run down
 BEFORE = (0.3, 0.8)  # seconds before the first wave breaks
@@ -90,14 +90,11 @@ class _Waves:
 
     def runup(self, since=0.0):
         """Highest place that water with others around it reached on the slope after a time [m]."""
-        x = 0.0
-        for time, position, _ in self.run.water():
-            tongue = position[position[:, 0] > 0.55]
-            if time >= since and len(tongue):
-                around = cKDTree(tongue).query_ball_point(
-                    tongue, 2.0 * self.run.spacing, return_length=True
-                )
-                x = max(x, tongue[around > COMPANY, 0].max(initial=0.0))
+        x = max(
+            foremost(position[position[:, 0] > BEACH], self.run.spacing, COMPANY)
+            for time, position, _ in self.run.water()
+            if time >= since
+        )
         return SLOPE * (x - TOE) - self.run.depth
 
 

@@ -3,10 +3,10 @@
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from mpslab import gauges
 from validation.comparison import Comparison
+from validation.data import foremost
 
 DATA = Path(__file__).parent / "data"
 COT = 19.85
@@ -57,14 +57,9 @@ def _shoreline(run):
 
 def _runup(run):
     """Highest place above still water that water with others around it reached [m]."""
-    shore, highest = _shoreline(run), 0.0
-    for _, position, _ in run.water():
-        tongue = position[position[:, 0] > shore - 0.05]
-        if len(tongue):
-            around = cKDTree(tongue).query_ball_point(tongue, 2.0 * run.spacing, return_length=True)
-            foremost = tongue[around > COMPANY, 0].max(initial=shore)
-            highest = max(highest, (foremost - shore) / COT)
-    return highest
+    shore = _shoreline(run)
+    x = max(foremost(p[p[:, 0] > shore - 0.05], run.spacing, COMPANY) for _, p, _ in run.water())
+    return (x - shore) / COT
 
 
 def _draw_law(result, rows):

@@ -1,0 +1,35 @@
+"""Measurements from a CSV file, and the place in the water to hold them against."""
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+NEIGHBOURHOOD = 2.0  # [spacings]
+
+
+def read_columns(path):
+    """Columns of a CSV file of numbers, by their headings."""
+    with path.open() as file:
+        heading = file.readline().strip().split(",")
+        return dict(zip(heading, np.loadtxt(file, delimiter=",").T, strict=True))
+
+
+def foremost(position, spacing, others):
+    """Largest x of the water that is no spray [m].
+
+    Parameters
+    ----------
+    position : (n, 3) float64 [m]
+    spacing : float [m]
+    others : int
+        Particles that one needs within two spacings not to be spray.
+
+    Returns
+    -------
+    float
+        -inf if there is none.
+    """
+    if not len(position):
+        return -np.inf
+    tree = cKDTree(position)
+    around = tree.query_ball_point(position, NEIGHBOURHOOD * spacing, return_length=True) - 1
+    return position[around >= others, 0].max(initial=-np.inf)
