@@ -9,6 +9,7 @@ import pytest
 from validation import __main__ as command
 from validation import judge, result, suite
 from validation.comparison import Comparison
+from validation.data import foremost, read_columns
 from validation.suite import Criterion, PlannedRun
 from validation.wave_analysis import decay, harmonics
 from validation.work import Outcome, Task, Work, fingerprint
@@ -124,6 +125,21 @@ def test_harmonics_of_a_known_wave_come_back():
 def test_a_known_decay_comes_back():
     x = np.linspace(0.0, 3.0, 7)
     assert np.allclose(decay(x, 0.02 * np.exp(-0.3 * x)), (0.3, 0.02))
+
+
+def test_spray_is_not_the_foremost_water():
+    row = np.zeros((4, 3))
+    row[:, 0] = [0.0, 1.0, 2.5, 9.0]
+    assert foremost(row, 1.0, others=0) == 9.0
+    assert foremost(row, 1.0, others=1) == 2.5
+    assert foremost(row, 1.0, others=2) == 1.0
+    assert foremost(row[:0], 1.0, others=0) == -np.inf
+
+
+def test_columns_of_measurements_go_by_their_headings(tmp_path):
+    (tmp_path / "a.csv").write_text("t [s],p [Pa]\n0.0,1.5\n0.1,2.5\n")
+    found = read_columns(tmp_path / "a.csv")
+    assert found["p [Pa]"].tolist() == [1.5, 2.5]
 
 
 def plan(name="tiny", changes=TINY, **more):
