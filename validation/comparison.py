@@ -69,7 +69,7 @@ class Comparison:
 
     def measure(self, name, value):
         """Measure a criterion."""
-        self.measured[name] = float(value)
+        self.measured[name] = float(value) + 0.0  # never -0
 
     def figure(self, title, x, y, equal=False):
         """Add a figure; fill it with `Figure.line` and so on."""
