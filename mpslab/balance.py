@@ -69,22 +69,30 @@ def _bisect(load, first, ranks):
 def optimal(load, ranks):
     """Contiguous cuts with the least possible load of the busiest rank, exactly.
 
-    By dynamic programming: the best that k ranks can do with the first j slabs follows from the
-    best of k - 1 ranks with fewer.
+    That load is the sum of some run of slabs: bisect among all these sums for the least one that
+    a rank after the other, each taking as much as it allows, can keep to.
     """
-    n = len(load)
     total = np.concatenate([[0.0], np.cumsum(load)])
-    part = total[None, :] - total[:, None]  # load of the slabs i to j - 1
-    part[np.tril_indices(n + 1)] = np.inf
-    best, choices = part[0], []
-    for _ in range(ranks - 1):
-        worst = np.maximum(best[:, None], part)
-        choices.append(np.argmin(worst, axis=0))
-        best = worst.min(axis=0)
-    cuts = [n]
-    for choice in reversed(choices):
-        cuts.append(int(choice[cuts[-1]]))
-    return np.array([0, *reversed(cuts)])
+    begin, end = np.triu_indices(len(total), 1)
+    bounds = np.unique(total[end] - total[begin])
+    low, high = 0, len(bounds) - 1
+    while low < high:
+        middle = (low + high) // 2
+        cuts = _filled(total, ranks, bounds[middle])
+        if np.diff(total[cuts]).max() <= bounds[middle]:
+            high = middle
+        else:
+            low = middle + 1
+    return _filled(total, ranks, bounds[low])
+
+
+def _filled(total, ranks, bound):
+    """Cuts when each rank takes slabs up to a load, one at least, and leaves one to each other."""
+    cuts, slabs = [0], len(total) - 1
+    for others in range(ranks - 1, 0, -1):
+        most = np.searchsorted(total - total[cuts[-1]], bound, side="right") - 1
+        cuts.append(min(max(int(most), cuts[-1] + 1), slabs - others))
+    return np.array([*cuts, slabs])
 
 
 def imbalance(load, cuts):
