@@ -15,7 +15,7 @@ from validation.judge import judge
 from validation.run import Run
 
 
-def compare(case, suite, outcomes):
+def compare(case, suite, outcomes, runs):
     """What a case finds in its runs.
 
     Parameters
@@ -23,6 +23,8 @@ def compare(case, suite, outcomes):
     case : validation.suite.ValidationCase
     suite : str
     outcomes : list of validation.work.Outcome
+    runs : list of validation.run.Run
+        One for each outcome.
 
     Returns
     -------
@@ -34,7 +36,8 @@ def compare(case, suite, outcomes):
     why = [f"Run {o.task.plan.name} {o.outcome}: {o.reason}" for o in failed]
     if not failed:
         try:
-            return case.compare({o.task.plan.name: Run(o.task.folder) for o in outcomes})
+            names = [o.task.plan.name for o in outcomes]
+            return case.compare(dict(zip(names, runs, strict=True)))
         except Exception:
             traceback.print_exc()
             why = [f"The comparison failed: {traceback.format_exc().splitlines()[-1]}"]
@@ -50,10 +53,11 @@ def make(case, suite, outcomes, known):
     dict, dict of str to Path
         The object, and by the names in it the files of its pictures.
     """
-    found = compare(case, suite, outcomes)
+    runs = [Run(outcome.task.folder) for outcome in outcomes]
+    found = compare(case, suite, outcomes, runs)
     pictures = {}
     figures = [_figure(case, figure, pictures) for figure in found.figures]
-    runs = [_run(outcome) for outcome in outcomes]
+    told = [_run(*pair) for pair in zip(outcomes, runs, strict=True)]
     result = {
         "case": case.name,
         "title": case.title,
@@ -61,16 +65,16 @@ def make(case, suite, outcomes, known):
         "order": case.order,
         "suite": suite,
         "readme": case.readme,
-        "runs": runs,
+        "runs": told,
         "metrics": judge(case, suite, found.measured, known),
         "figures": figures,
-        "tables": [*found.tables, *ledger(outcomes)],
+        "tables": [*found.tables, *ledger(outcomes, runs)],
         "convergence": found.convergence,
         "notes": found.notes,
         "provenance": {
             **environment(),
             "date": datetime.now(UTC).isoformat(timespec="seconds"),
-            "seconds": sum(run["seconds"] for run in runs),
+            "seconds": sum(run["seconds"] for run in told),
         },
     }
     return result, pictures
@@ -85,11 +89,11 @@ def _figure(case, figure, pictures):
     return {**figure, "picture": name}
 
 
-def ledger(outcomes):
+def ledger(outcomes, runs):
     """Table of what became of water and energy in the runs; none where there are no runs."""
     rows = []
-    for outcome in outcomes:
-        steps = Run(outcome.task.folder).steps
+    for outcome, run in zip(outcomes, runs, strict=True):
+        steps = run.steps
         if steps:
             books, volume = measures.ledger(steps), steps["volume [m3]"]
             change = 100.0 * (volume[-1] / volume[0] - 1.0)
@@ -101,9 +105,8 @@ def ledger(outcomes):
     return [{"title": title, "columns": columns, "rows": rows}] if rows else []
 
 
-def _run(outcome):
-    plan, run = outcome.task.plan, Run(outcome.task.folder)
-    record = run.record
+def _run(outcome, run):
+    plan, record = outcome.task.plan, run.record
     return {
         "name": plan.name,
         "case": plan.resolved.name,

@@ -1,6 +1,7 @@
 """A finished run, as a case sees it."""
 
 import json
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -44,7 +45,7 @@ class Run:
         """Density of the water [kg/m3]."""
         return self.case["fluid"]["density"]
 
-    @property
+    @cached_property
     def steps(self):
         """Columns of ``steps.csv`` by their headings."""
         return read_table(self.folder / "steps.csv")

@@ -79,7 +79,7 @@ class _Waves:
     """What the waves of a run do."""
 
     def __init__(self, name, run, rows):
-        self.name, self.run, self.rows = name, run, rows
+        self.name, self.run = name, run
         self.period = run.case["wavemaker"]["period"]
         time, level = run.gauge("toe")
         crest = np.argmax(np.where(time < self.period, level, -np.inf))
@@ -117,8 +117,9 @@ def _tell_waves(result, waves):
         for label, b in (("second", w.second), ("third", w.third))
         if np.isfinite(b.time)
     ]
-    rises = [[w.name, 1e3 * w.runup(), w.runup() / _hunt(w)] for w in waves]
-    result.table("Highest run-up, of all waves", ["run", "run-up [mm]", "over Hunt's"], rises)
+    rises = [(w, w.runup()) for w in waves]
+    result.table("Highest run-up, of all waves", ["run", "run-up [mm]", "over Hunt's"],
+                 [[w.name, 1e3 * rise, rise / _hunt(w)] for w, rise in rises])  # fmt: skip
     period, gravity = waves[0].period, waves[0].run.gravity
     depth, height = breaking.breaking_point(DEEP_HEIGHT, period, SLOPE, gravity)
     lines.append(["Goda 2010", "regular", "", "", 1e3 * depth, 1e3 * height, height / depth])
