@@ -22,6 +22,19 @@ def make_progress(until, started, console=None):
     return Bar(until, started, console) if console.is_terminal else Lines(until, started)
 
 
+def make_bar(console, **remaining):
+    """Bar with percentage, description and times; keywords go to rich's TimeRemainingColumn."""
+    return Progress(
+        BarColumn(),
+        TextColumn("{task.percentage:3.0f} %"),
+        TextColumn("{task.description}"),
+        TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(**remaining),
+        console=console,
+    )
+
+
 def _figures(simulation):
     row = simulation.last_row
     return (
@@ -34,15 +47,7 @@ class Bar:
     """A bar with time left, for a terminal."""
 
     def __init__(self, until, started, console):
-        self.progress = Progress(
-            BarColumn(),
-            TextColumn("{task.percentage:3.0f} %"),
-            TextColumn("{task.description}"),
-            TimeElapsedColumn(),
-            TextColumn("left"),
-            TimeRemainingColumn(),
-            console=console,
-        )
+        self.progress = make_bar(console)
         self.task = self.progress.add_task("starting", total=until, completed=started)
 
     def __enter__(self):

@@ -3,9 +3,8 @@
 import time
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-LINE_EVERY = 10.0  # seconds between the lines of a log
+from mpslab.progress import LINE_EVERY, make_bar
 
 
 def make_display(tasks, console=None):
@@ -65,15 +64,7 @@ class Bar(Lines):
 
     def __init__(self, tasks, console):
         super().__init__(tasks)
-        self.progress = Progress(
-            BarColumn(),
-            TextColumn("{task.percentage:3.0f} %"),
-            TextColumn("{task.description}"),
-            TimeElapsedColumn(),
-            TextColumn("left"),
-            TimeRemainingColumn(elapsed_when_finished=True),
-            console=console,
-        )
+        self.progress = make_bar(console, elapsed_when_finished=True)
         self.task = self.progress.add_task("starting", total=1.0)
 
     def __enter__(self):
