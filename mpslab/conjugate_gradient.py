@@ -8,7 +8,9 @@ from mpslab.kernels.sparse import axpy, xpay
 from mpslab.sparse import SolverReport
 
 
-def conjugate_gradient(system, x, precondition, tolerance, max_iterations, replaced=0):
+def conjugate_gradient(
+    system, x, precondition, tolerance, max_iterations, replaced=0, deflation=None
+):
     """Solve A x = b from the given x, in place.
 
     Parameters
@@ -23,6 +25,8 @@ def conjugate_gradient(system, x, precondition, tolerance, max_iterations, repla
     max_iterations : int
     replaced : int
         Handed through to the report.
+    deflation : mpslab.deflation.Deflation, optional
+        Takes the smooth part out of the residual; x gets it at the end.
     """
     dot = system.dot
     b_norm = math.sqrt(dot(system.right, system.right))
@@ -33,14 +37,22 @@ def conjugate_gradient(system, x, precondition, tolerance, max_iterations, repla
     r = system.right - system.multiply(x, q)
     p, rho, iterations = np.zeros_like(x), 1.0, 0
     residual = math.sqrt(dot(r, r)) / b_norm
+    deflate = deflation is not None and residual > tolerance
+    if deflate:
+        deflation.project(r)
+        residual = math.sqrt(dot(r, r)) / b_norm
     while residual > tolerance and iterations < max_iterations:
         precondition(r, z)
         rho, rho_old = dot(r, z), rho
         xpay(z, rho / rho_old if iterations else 0.0, p)
         system.multiply(p, q)
+        if deflate:
+            deflation.project(q)
         alpha = rho / dot(p, q)
         axpy(alpha, p, x)
         axpy(-alpha, q, r)
         residual = math.sqrt(dot(r, r)) / b_norm
         iterations += 1
+    if deflate:
+        deflation.complete(x, system.right - system.multiply(x, q))
     return SolverReport(iterations, residual, residual <= tolerance, replaced)

@@ -163,7 +163,7 @@ class Scheme:
     gradient: str = key("pressure gradient", "corrected", family="gradients")
     source: str = key("source of the Poisson equation", "adjoint", family="sources")
     laplacian: str = key("Laplacian of pressure", "standard", family="laplacians")
-    solver: str = key("solver of the Poisson equation", "piccg", family="solvers")
+    solver: str = key("solver of the Poisson equation", "deflated", family="solvers")
     stabiliser: tuple = key(
         "what keeps particles apart",
         ("corrected_shifting", "ds"),

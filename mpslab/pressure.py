@@ -2,9 +2,12 @@
 
 import numpy as np
 
+from mpslab import slabs
 from mpslab.kernels import poisson
 from mpslab.particles import carries_pressure
 from mpslab.sparse import PressureSystem
+
+FAR = 100_000  # cells; farther away all places are in the same one
 
 
 def assemble(
@@ -55,10 +58,16 @@ def assemble(
     if surface_pull is not None:
         diagonal += surface_pull[rows]
         excess += surface_pull[rows]
-    system = PressureSystem(row, column, value, diagonal, source[rows], first, domain)
+    cell = _across(particles.position[rows, 1:], slabs.WIDTH * stencil.radius)
+    system = PressureSystem(row, column, value, diagonal, source[rows], first, domain, cell)
     system.refresh(diagonal)
     _hold_cut_off_rows(system, excess)
     return system, rows
+
+
+def _across(place, width):
+    """Cell of each place (m, 2) [m] across the tank; one that is not a number has one as well."""
+    return np.fmin(np.fmax(np.floor(place / width), -FAR), FAR).astype(np.int32)
 
 
 def _by_slab(rows, slab, slabs):

@@ -23,6 +23,8 @@ class PressureSystem:
     domain : mpslab.domain.Domain, optional
         With it the rows of this rank's ghosts are among the m, but solved on the rank that owns
         them; `multiply` and `dot` see to that.
+    cell : (m, 2) int, optional
+        Cell across the tank, in y and z, that the particle of each row is in.
     """
 
     row: np.ndarray
@@ -32,10 +34,13 @@ class PressureSystem:
     right: np.ndarray
     first: np.ndarray = None
     domain: object = None
+    cell: np.ndarray = None
 
     def __post_init__(self):
         if self.first is None:
             self.first = np.array([0, len(self)], np.int32)
+        if self.cell is None:
+            self.cell = np.zeros((len(self), 2), np.int32)
 
     def __len__(self):
         return len(self.diagonal)
@@ -49,6 +54,11 @@ class PressureSystem:
     def end(self):
         """Slab after the last one whose rows are solved here."""
         return self.domain.end if self.domain else len(self.first) - 1
+
+    @property
+    def own(self):
+        """First row that is solved here, and the row after the last one."""
+        return int(self.first[self.begin]), int(self.first[self.end])
 
     def dot(self, x, y):
         """x . y over all ranks, from the sums of the slabs, added in the order of the slabs."""
@@ -65,13 +75,14 @@ class PressureSystem:
         """What each rank gives, a list."""
         return self.domain.from_all(item) if self.domain else [item]
 
+    def collect(self, sums):
+        """Sum over the ranks of arrays in which no two ranks give to the same entry."""
+        return self.domain.collect(sums) if self.domain else sums
+
     def multiply(self, x, out):
         """out = A x in this rank's rows."""
         self.refresh(x)
-        begin, end = self.first[self.begin], self.first[self.end]
-        sparse.multiply(
-            self.row, self.column, self.value, self.diagonal, x, out, begin, end
-        )
+        sparse.multiply(self.row, self.column, self.value, self.diagonal, x, out, *self.own)
         return out
 
 

@@ -19,7 +19,7 @@ def run(folder, solver, ranks, balance):
 
 @pytest.mark.slow
 @pytest.mark.timeout(3600)
-@pytest.mark.parametrize("solver", ["scg", "piccg"])
+@pytest.mark.parametrize("solver", ["scg", "piccg", "deflated"])
 def test_200_steps_of_the_breaker_leave_the_same_files_on_1_to_4_ranks(tmp_path, solver):
     alone = run(tmp_path / "alone", solver, 1, "static")
     assert len(table(alone)) >= 200

@@ -12,7 +12,7 @@ FLOORS = {
     "preflight cases initial provenance diagnostics scatter",
     4: "step timestep",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
-    "conjugate_gradient piston geometry correction obstacles",
+    "deflation conjugate_gradient piston geometry correction obstacles",
     2: "balance communicator domain rebalance",
     1: "particles neighbors stencil sparse slabs parameters keys plugins bed paddle waves breaking "
     "stopwatch files",

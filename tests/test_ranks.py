@@ -17,7 +17,7 @@ MARKED = {**REST, "scheme.surface": "marked", "scheme.projection": "predicted",
 CASES = {"periodic": PERIODIC, "piston": PISTON, "paper": PAPER, "rest": REST, "marked": MARKED}
 
 
-@pytest.mark.parametrize("solver", ["scg", "piccg"])
+@pytest.mark.parametrize("solver", ["scg", "piccg", "deflated"])
 def test_steps_have_the_same_bytes_and_iterations_on_1_to_4_ranks(solver):
     changes = {**PISTON, "scheme.solver": solver}
     alone = start("steps", 1, changes, 15, DT)
@@ -26,7 +26,7 @@ def test_steps_have_the_same_bytes_and_iterations_on_1_to_4_ranks(solver):
         assert start("steps", ranks, changes, 15, DT) == alone
 
 
-@pytest.mark.parametrize("solver", ["scg", "piccg"])
+@pytest.mark.parametrize("solver", ["scg", "piccg", "deflated"])
 @pytest.mark.parametrize("name", ["periodic", "paper", "rest", "marked"])
 def test_every_part_of_a_step_has_the_same_bytes_on_3_ranks(name, solver):
     changes = {**CASES[name], "scheme.solver": solver}
@@ -38,7 +38,7 @@ def test_static_cuts_give_the_same_bytes_as_the_best_ones():
     assert start("steps", 3, static, 10, DT) == start("steps", 3, PISTON, 10, DT)
 
 
-@pytest.mark.parametrize("solver", ["scg", "piccg"])
+@pytest.mark.parametrize("solver", ["scg", "piccg", "deflated"])
 def test_ranks_without_water_leave_the_same_bytes(solver):
     box = {"from": [0.0, 0.0, 0.0], "to": [0.06, 0.0, 0.04]}
     changes = {"tank.length": 0.4, "tank.depth": 0.04, "water": [box], "scheme.solver": solver,

@@ -108,7 +108,7 @@ def test_piccg_needs_few_more_iterations_than_iccg_and_far_fewer_than_scg():
     assert iterations[scg] > 1.8 * iterations[piccg]
 
 
-@pytest.mark.parametrize("solver", ["scg", "piccg"])
+@pytest.mark.parametrize("solver", ["scg", "piccg", "deflated"])
 def test_all_solvers_lead_to_the_same_flow(solver):
     tight = {**TANK, "scheme.tolerance": 1e-11}
     one = run(flow_of(make_case({**tight, "scheme.solver": "iccg"})), 5, 2e-4).particles

@@ -13,7 +13,7 @@ RECIPES = {
         "walls": "extrapolated",
         "surface": "graded",
         "laplacian": "standard",
-        "solver": "piccg",
+        "solver": "deflated",
         "stabiliser": ["corrected_shifting", "ds"],
         "effective_radius": 2.1,
         "laplacian_radius": 2.1,

@@ -1,0 +1,23 @@
+"""Deflated conjugate gradients: the diagonal for what is rough, a coarse system for the rest."""
+
+import numpy as np
+
+from mpslab.conjugate_gradient import conjugate_gradient
+from mpslab.deflation import Deflation
+
+BY_SLAB = True
+
+
+def solve(system, x, tolerance, max_iterations):
+    """Solve A x = b with z = r / diag(A), smooth errors taken out; see :mod:`mpslab.solvers`.
+
+    Nicolaides (1987); in the form DEF1 of Tang, Nabben, Vuik & Erlangga (2009).
+    """
+
+    def precondition(r, z):
+        np.divide(r, system.diagonal, out=z)
+
+    deflation = Deflation(system)
+    return conjugate_gradient(
+        system, x, precondition, tolerance, max_iterations, deflation=deflation
+    )
