@@ -22,8 +22,7 @@ test: .venv/tested lint
 	$(BIN)/python -m pytest
 
 # The slow paths of physics and of whole runs say nothing about array indices, nor does the report.
-WHOLE_RUNS := $(addprefix --ignore=tests/test_,parallel.py validation.py validation_catches.py \
-                validation_report.py)
+WHOLE_RUNS := --ignore=tests/test_parallel.py '--ignore-glob=*/test_validation*.py'
 test-checked: .venv/tested
 	MPSLAB_CHECKED=1 $(BIN)/python -m pip install -q --no-deps --upgrade --target build/checked .
 	PYTHONPATH=build/checked $(BIN)/pytest -m "not slow" $(WHOLE_RUNS)

@@ -9,7 +9,7 @@ import numpy as np
 
 from mpslab.kernels import coarse
 
-# Groups in a slab at most: the work of the direct solve grows with their square.
+# Groups in a slab at most, four or more: the work of the direct solve grows with their square.
 MOST = 64
 # Cells across the tank in the number of a group; far more than there are.
 SIDE = 1 << 20

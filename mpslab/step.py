@@ -95,7 +95,7 @@ def make_flow(case, particles, piston, width, comm=None):
     if domain.size > 1 and not solver.BY_SLAB:
         raise ValueError(
             f'scheme.solver = "{scheme.solver}": runs on one rank only; on {domain.size} ranks '
-            'choose "piccg" or "scg"'
+            'choose "deflated", "piccg" or "scg"'
         )
     return Flow(
         case=case,

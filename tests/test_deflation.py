@@ -1,0 +1,101 @@
+"""The coarse system of the deflation: its groups, its factor, and what it takes out."""
+
+import numpy as np
+import pytest
+from test_slabs import system_by_slab
+from test_solvers import as_matrix
+
+from mpslab import deflation
+from mpslab.deflation import Deflation
+from mpslab.kernels import coarse
+from mpslab.solvers import deflated, scg
+
+
+def members(made):
+    """Z, dense: one where a row belongs to a group."""
+    z = np.zeros((len(made.group), made.count))
+    z[np.arange(len(made.group)), made.group] = 1.0
+    return z
+
+
+@pytest.fixture
+def system():
+    system, _ = system_by_slab()
+    system.cell[:, 1] = np.random.default_rng(5).integers(-2, 2, len(system))
+    return system
+
+
+def test_rows_of_a_group_are_in_one_slab_and_one_cell(system):
+    made = Deflation(system)
+    slab = np.repeat(np.arange(len(system.first) - 1), np.diff(system.first))
+    places = {(s, *c) for s, c in zip(slab.tolist(), system.cell.tolist(), strict=True)}
+    for g in range(made.count):
+        inside = made.group == g
+        assert len(set(slab[inside])) == 1
+        assert len({tuple(c) for c in system.cell[inside].tolist()}) == 1
+    assert made.count == len(places) > 2 * len(set(slab))
+
+
+def test_projection_leaves_no_sum_in_any_group(system):
+    made = Deflation(system)
+    z = members(made)
+    r = np.random.default_rng(6).normal(size=len(system))
+    left = r.copy()
+    made.project(left)
+    assert np.abs(z.T @ r).max() > 1.0
+    np.testing.assert_allclose(z.T @ left, 0.0, atol=1e-12)
+    a = as_matrix(system).toarray()
+    dense = r - a @ z @ np.linalg.solve(z.T @ a @ z, z.T @ r)
+    np.testing.assert_allclose(left, dense, rtol=1e-9, atol=1e-12)
+
+
+def test_pressure_that_is_constant_in_each_group_is_found_at_once(system):
+    made = Deflation(system)
+    exact = np.random.default_rng(7).normal(size=made.count)[made.group]
+    x = np.zeros(len(system))
+    made.complete(x, as_matrix(system) @ exact)
+    np.testing.assert_allclose(x, exact, rtol=1e-9)
+
+
+def test_cells_are_merged_where_a_slab_has_too_many(system, monkeypatch):
+    system.cell[:, 0] = np.random.default_rng(8).integers(0, 9, len(system))
+    before = Deflation(system).count
+    monkeypatch.setattr(deflation, "MOST", 6)
+    made = Deflation(system)
+    slabs = zip(system.first[:-1], system.first[1:], strict=True)
+    assert max(len(set(made.group[a:b])) for a, b in slabs) <= 6
+    assert 3 * made.count < before
+
+
+def test_banded_factor_solves_as_a_dense_one():
+    n, half = 40, 6
+    rng = np.random.default_rng(9)
+    a = np.zeros((n, n))
+    band = np.zeros((n, half + 1))
+    for i in range(n):
+        for j in range(max(0, i - half), i + 1):
+            a[i, j] = a[j, i] = rng.normal() + 20.0 * (i == j)
+            band[i, half + j - i] = a[i, j]
+    inverse, y = np.empty(n), rng.normal(size=n)
+    exact = np.linalg.solve(a, y)
+    coarse.factorise(band, inverse)
+    coarse.substitute(band, inverse, y)
+    np.testing.assert_allclose(y, exact, rtol=1e-10)
+
+
+def test_group_that_adds_nothing_is_left_out():
+    """Two groups that are the same but for the sign: the second is no unknown of its own."""
+    band, inverse = np.array([[0.0, 2.0], [-2.0, 2.0], [0.0, 4.0]]), np.empty(3)
+    coarse.factorise(band, inverse)
+    y = np.array([2.0, -2.0, 4.0])
+    coarse.substitute(band, inverse, y)
+    np.testing.assert_allclose(y, [1.0, 0.0, 1.0])
+
+
+def test_deflation_saves_most_of_the_iterations():
+    reports = []
+    for solver in (scg, deflated):
+        system, _ = system_by_slab(48, 12)
+        reports.append(solver.solve(system, np.zeros(len(system)), 1e-8, 500))
+    assert all(r.converged for r in reports)
+    assert reports[1].iterations < 0.5 * reports[0].iterations
