@@ -9,8 +9,8 @@ import numpy as np
 
 from mpslab.kernels import coarse
 
-# Groups in a slab at most, four or more: the work of the direct solve grows with their square.
-MOST = 64
+# What the factor of the band may cost at most: multiply-adds a row, a tenth of a step.
+WORK = 1000
 # Cells across the tank in the number of a group; far more than there are.
 SIDE = 1 << 20
 
@@ -34,10 +34,9 @@ class Deflation:
 
     def __init__(self, system):
         self.system = system
-        self.group, slab = _group(system)
-        self.count = len(slab)
+        self.group, self.count, half = _group(system)
         self._couplings(system)
-        self._factor(slab)
+        self._factor(half)
 
     def _couplings(self, system):
         most = len(system) + len(system.value)
@@ -49,10 +48,7 @@ class Deflation:
         )  # fmt: skip
         self.member, self.entry = member[:used], entry[:used]
 
-    def _factor(self, slab):
-        """The factor of the band; a group is coupled to those of its slab and the slabs beside."""
-        size = np.bincount(slab)
-        half = max((size + np.append(size[1:], 0)).max(initial=1) - 1, 0)
+    def _factor(self, half):
         self.band, self.inverse = np.zeros((self.count, half + 1)), np.empty(self.count)
         coarse.couple(
             self.start, self.member, self.entry, self.group, *self.system.own, self.band
@@ -80,16 +76,25 @@ class Deflation:
 
 
 def _group(system):
-    """Group of each row, (m,) int32, and slab of each group; the same numbers on every rank."""
+    """Group of each row, (m,) int32, how many there are, and the half width of their band.
+
+    The same numbers on every rank.  Cells are merged until the factor of the band is cheap.
+    """
     slab = np.repeat(np.arange(len(system.first) - 1), np.diff(system.first))
     merged, cell = 1, system.cell.astype(np.int64)
     begin, end = system.own
+    rows = sum(system.from_all(end - begin))
     while True:
         part = cell // merged + SIDE // 2
         key = (slab * SIDE + part[:, 0]) * SIDE + part[:, 1]
         mine = np.unique(key[begin:end])
         groups = np.unique(np.concatenate(system.from_all(mine)))
-        of = groups // SIDE**2
-        if np.bincount(of).max(initial=0) <= MOST:
-            return np.searchsorted(groups, key).astype(np.int32), of
+        half = _half_width(np.bincount(groups // SIDE**2))
+        if len(groups) * half**2 <= WORK * rows:
+            return np.searchsorted(groups, key).astype(np.int32), len(groups), half
         merged *= 2
+
+
+def _half_width(size):
+    """Of the band, for so many groups in each slab: they meet those of their slab and the next."""
+    return max((size + np.append(size[1:], 0)).max(initial=0) - 1, 0)

@@ -57,14 +57,16 @@ def test_pressure_that_is_constant_in_each_group_is_found_at_once(system):
     np.testing.assert_allclose(x, exact, rtol=1e-9)
 
 
-def test_cells_are_merged_where_a_slab_has_too_many(system, monkeypatch):
+def test_cells_are_merged_until_the_factor_is_cheap(system, monkeypatch):
     system.cell[:, 0] = np.random.default_rng(8).integers(0, 9, len(system))
-    before = Deflation(system).count
-    monkeypatch.setattr(deflation, "MOST", 6)
+    before = Deflation(system)
+    monkeypatch.setattr(deflation, "WORK", 8)
     made = Deflation(system)
-    slabs = zip(system.first[:-1], system.first[1:], strict=True)
-    assert max(len(set(made.group[a:b])) for a, b in slabs) <= 6
-    assert 3 * made.count < before
+    cost, half = 8 * len(system), made.band.shape[1] - 1
+    assert made.count * half**2 <= cost < before.count * (before.band.shape[1] - 1) ** 2
+    b = np.random.default_rng(8).normal(size=len(system))
+    made.project(b)
+    np.testing.assert_allclose(members(made).T @ b, 0.0, atol=1e-12)
 
 
 def test_banded_factor_solves_as_a_dense_one():
