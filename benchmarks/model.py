@@ -1,8 +1,9 @@
 """``python -m benchmarks.model``: what the paper's tank would cost on up to 1,024 ranks.
 
 A step lasts as long as its busiest rank works, phase by phase, and then come the messages.  Who
-owns what is not modelled: the tank is built and cut as the program does it.  The constants of the
-machine stand in machine.toml.  Writes the figure and the tables of docs/parallel.md.
+owns what is not modelled: the tank is built and cut as the program does it.  The solver is
+`deflated`, the default.  The constants of the machine stand in machine.toml.  Writes the figure and
+the tables of docs/parallel.md.
 """
 
 import bisect
@@ -13,24 +14,29 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import balance, geometry, load_case
+from mpslab import balance, geometry, load_case, pressure
+from mpslab.deflation import Deflation
 from mpslab.piston import make_paddle
 from mpslab.rebalance import load
-from mpslab.slabs import make_slabs
+from mpslab.slabs import WIDTH, make_slabs
+from mpslab.sparse import PressureSystem
 
 HERE = Path(__file__).parent
 DOCS = HERE.parent / "docs"
 SPACINGS = (0.002, 0.001, 0.0005)  # m
 RANKS = tuple(2**k for k in range(11))
 
-# Of `piccg` a step, mean over steps 4 to 15 of the breaker in 3-D; the same on any machine.
-ITERATIONS = {0.004: 21.1, 0.003: 32.0, 0.002: 52.8, 0.0015: 70.6, 0.001: 106.7}
+# Of `deflated` a step, mean over steps 4 to 15 of the breaker in 3-D; the same on any machine.
+ITERATIONS = {0.004: 16.3, 0.003: 21.7, 0.002: 22.0, 0.0015: 22.0, 0.001: 39.5}
 
-# Messages of an iteration: rows for the product and twice for the preconditioner, three dots.
-EXCHANGES, SUMS = 3, 3
+# Messages of an iteration: rows for the product, and three dots, each the sum of a value a slab.
+EXCHANGES, SUMS = 1, 3
 # And of a step: rows and refreshed arrays; sums, with what all ranks tell each other as two each.
-STEP_EXCHANGES, STEP_SUMS = 10, 26
-ROW_BYTES = 8
+STEP_EXCHANGES, STEP_SUMS = 11, 29
+# Solves for the groups, each with the sum of a value a group: one an iteration, and before the
+# first and after the last.
+STEP_SOLVES = 2
+ROW_BYTES = 8  # of a value in messages and sums as well
 # Of a ghost in a step: its arrays, position and velocity of the start, and what is refreshed.
 GHOST_BYTES = 74 + 48 + 105
 
@@ -46,12 +52,18 @@ class Tank:
         Water particles, and all.
     work : (slabs,) float
         By which ranks are cut; see `mpslab.rebalance.load`.
+    groups : (slabs,) int
+        Of the deflation; see `mpslab.deflation`.
+    half : int
+        Groups before a group that it may be coupled to: the coarse matrix is a band.
     """
 
     spacing: float
     water: np.ndarray
     particles: np.ndarray
     work: np.ndarray
+    groups: np.ndarray
+    half: int
 
 
 def make_tank(spacing):
@@ -63,19 +75,63 @@ def make_tank(spacing):
     radius = spacing * max(flat.scheme.effective_radius, flat.scheme.laplacian_radius)
     slabs = make_slabs(*geometry.extent(flat, backmost), radius)
     slab, fluid = slabs.of(particles.position[:, 0]), particles.fluid
+    groups, half = _groups(
+        slab[fluid],
+        _cell(particles.position[fluid, 2], flat),
+        _cell((np.arange(across) + 0.5) * spacing, flat),
+        slabs.count,
+    )
     return Tank(
         spacing=spacing,
         water=across * np.bincount(slab[fluid], minlength=slabs.count),
         particles=across * np.bincount(slab, minlength=slabs.count),
         work=across * load("optimal", fluid, slab, slabs.count),
+        groups=groups,
+        half=half,
     )
+
+
+def _cell(place, case):
+    """Cell across the tank of places [m] in y or z, as wide as in `mpslab.pressure.assemble`."""
+    radius = case.particles.spacing * case.scheme.laplacian_radius
+    return pressure._across(place, WIDTH * radius)
+
+
+def _groups(slab, up, aside, slabs):
+    """Groups of each slab, (slabs,) int, and half the band, as the `Deflation` of a step has them.
+
+    Groups depend on which cells hold water, not on how much: a row for each of them will do.
+
+    Parameters
+    ----------
+    slab, up : (n,) int
+        Slab of each water particle of a slice, and its cell in z.
+    aside : (across,) int
+        Cell of each slice in y.
+    slabs : int
+        Number of slabs.
+    """
+    wet, aside = np.unique(np.column_stack([slab, up]), axis=0), np.unique(aside)
+    slab, up = np.repeat(wet, len(aside), axis=0).T
+    m = len(slab)
+    system = PressureSystem(
+        row=np.zeros(m + 1, np.int32), column=np.empty(0, np.int32), value=np.empty(0),
+        diagonal=np.ones(m), right=np.zeros(m),
+        first=np.searchsorted(slab, np.arange(slabs + 1)).astype(np.int32),
+        cell=np.column_stack([np.tile(aside, len(wet)), up]),
+    )  # fmt: skip
+    made = Deflation(system)
+    _, row = np.unique(made.group, return_index=True)
+    return np.bincount(slab[row], minlength=slabs), made.band.shape[1] - 1
 
 
 def iterations(spacing):
     """Iterations of a step, between and beyond the measured spacings [m].
 
-    Between them by a power of the spacing.  Beyond the finest as 1/d0: the root of the condition
-    number, which grows as 1/d0^2.  The measured power falls from 1.5 to 1.0 on the way there.
+    Between them by a power of the spacing.  Beyond the finest as 1/d0, the root of the condition
+    number inside a group: from 1 mm on cells are merged so that the groups stay as wide and as
+    high as they are at 2 mm, and hold ever more particles across.  Measured from 2 to 1 mm, whose
+    groups have that same section: 1.8 times as many at half the spacing.
     """
     known = sorted(ITERATIONS)
     if spacing < known[0]:
@@ -117,51 +173,70 @@ def _beside(count, cuts):
     return walled[cuts[:-1]] + walled[cuts[1:] + 1]
 
 
-def predict(machine, spacing, share):
+def predict(machine, tank, share):
     """Seconds of a step.
 
     Parameters
     ----------
     machine : dict
         As `read_machine` gives it.
-    spacing : float [m]
+    tank : Tank
     share : Share
 
     Returns
     -------
     dict of str to float
-        Of each phase the work of its busiest rank, and ``messages``.
+        Of each phase the work of its busiest rank; ``solve`` without ``coarse``, the work for the
+        groups; and ``messages``.
     """
     cost, alone = machine["work"], len(share.water) == 1
-    slowdown = 1.0 if alone else machine["sharing"]
+    slowdown, count = 1.0 if alone else machine["sharing"], iterations(tank.spacing)
     seen = (share.water + share.ghost_water).max()
     counts = {
         "ghosts": 0 if alone else (share.particles + share.ghosts).max(),
         "neighbours": seen,
         "operators": seen,
         "assembly": seen,
-        "solve": share.water.max() * iterations(spacing),
+        "solve": share.water.max() * count,
         "record": share.particles.max(),
         "rest": share.particles.max(),
     }
-    step = {phase: slowdown * cost[phase] * count for phase, count in counts.items()}
-    step["messages"] = _messages(machine["message"], iterations(spacing), share)
+    step = {phase: slowdown * cost[phase] * many for phase, many in counts.items()}
+    step["coarse"] = slowdown * coarse_work(cost, tank, count)
+    step["messages"] = _messages(machine["message"], tank, share, count)
     return step
 
 
-def _messages(message, count, share):
+def coarse_work(cost, tank, count):
+    """Seconds for the groups in a step of `count` iterations, the same on every rank.
+
+    Each rank factors the whole band, and solves with it in every iteration.
+    """
+    solves = tank.groups.sum() * tank.half * (count + STEP_SOLVES)
+    return cost["factor"] * tank.groups.sum() * tank.half**2 + cost["substitution"] * solves
+
+
+def _messages(message, tank, share, count):
     """Seconds for messages to the neighbours and sums over all ranks, with `count` iterations."""
-    ranks = len(share.water)
+    beside = min(len(share.water) - 1, 2)
     exchanges = EXCHANGES * count + STEP_EXCHANGES
     size = EXCHANGES * count * ROW_BYTES * share.ghost_water.max()
     size += GHOST_BYTES * share.ghosts.max()
-    sums = (SUMS * count + STEP_SUMS) * math.ceil(math.log2(ranks))
-    beside = min(ranks - 1, 2)
     return (
         beside * exchanges * message["latency"]
         + size / message["bandwidth"]
-        + sums * message["sum"]
+        + _sums(message, tank, len(share.water), count)
     )
+
+
+def _sums(message, tank, ranks, count):
+    """Seconds for sums of arrays over all ranks, in rounds: a value a slab or a group, the band."""
+    groups = tank.groups.sum()
+    by_slab, by_group = SUMS * count + STEP_SUMS, count + STEP_SOLVES
+    number = by_slab + by_group + 1
+    size = ROW_BYTES * (by_slab * len(tank.groups) + (by_group + tank.half + 1) * groups)
+    rounds = math.ceil(math.log2(ranks))
+    return rounds * (number * message["sum"] + size / message["bandwidth"])
 
 
 def slabs_run_out(tank):
@@ -190,7 +265,7 @@ def scaling(machine, tank):
     most = slabs_run_out(tank)
     counts = [*(n for n in RANKS if n < most), most]
     shares = [share_out(tank, n) for n in counts]
-    return [(n, s, predict(machine, tank.spacing, s)) for n, s in zip(counts, shares, strict=True)]
+    return [(n, s, predict(machine, tank, s)) for n, s in zip(counts, shares, strict=True)]
 
 
 def report(machine, tanks, rows):
@@ -200,8 +275,8 @@ def report(machine, tanks, rows):
         lines += ["**Provisional**: the constants are not yet measured on a quiet machine.", ""]
     lines += ["| d0, mm | ranks | measured, s a step | predicted |", "|---|---|---|---|"]
     for one in machine["measured"]:
-        share = share_out(make_tank(one["spacing"]), one["ranks"])
-        step = sum(predict(machine, one["spacing"], share).values())
+        tank = make_tank(one["spacing"])
+        step = sum(predict(machine, tank, share_out(tank, one["ranks"])).values())
         lines.append(f"| {one['spacing'] * 1e3:g} | {one['ranks']} | {one['seconds']:.3f} "
                      f"| {step:.3f} |")  # fmt: skip
     for tank, table in zip(tanks, rows, strict=True):
@@ -213,7 +288,8 @@ def _summary(tank):
     most, water = slabs_run_out(tank), tank.water
     return (
         f"d0 = {tank.spacing * 1e3:g} mm: {tank.particles.sum():,} particles, {water.sum():,} of "
-        f"water, {iterations(tank.spacing):.0f} iterations a step. Slabs run out at {most} ranks, "
+        f"water in {tank.groups.sum():,} groups, {iterations(tank.spacing):.0f} iterations a step. "
+        f"Slabs run out at {most} ranks, "
         f"{np.count_nonzero(water == 0)} of them dry; from {ghosts_outweigh(tank)} ranks on they "
         f"see more water of others than they own; the fullest slab holds 1/"
         f"{water.sum() / water.max():.0f} of the water."

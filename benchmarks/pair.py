@@ -76,7 +76,7 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(prog="python -m benchmarks.pair", description=__doc__)
     parser.add_argument("--ranks", type=int, default=2)
     parser.add_argument("--spacing", type=float, default=0.004, metavar="D0", help="[m]")
-    parser.add_argument("--solver", default="piccg")
+    parser.add_argument("--solver", default="deflated")
     parser.add_argument("--steps", type=int, default=12, help="time steps of a run")
     parser.add_argument("--turns", type=int, default=7)
     parser.add_argument("--json", metavar="FILE", help="keep all that was measured")

@@ -16,6 +16,7 @@ import numpy as np
 from mpslab import Simulation, launch, load_case
 from mpslab.balance import imbalance
 from mpslab.domain import world
+from mpslab.kernels import coarse
 from mpslab.rebalance import load
 from mpslab.stopwatch import KINDS, PHASES
 
@@ -99,6 +100,28 @@ def time_messages(slabs, rows, repeats):
         x = np.zeros(slabs * count)
         exchange.append(_median(lambda x=x, f=first: domain.refresh_rows(x, f), repeats))
     return {"sum": _median(lambda: domain.add(sums), repeats), "exchange": exchange}
+
+
+def time_coarse(groups, half, repeats):
+    """Time what a rank does for the groups of the deflation, on a band of made-up couplings.
+
+    Parameters
+    ----------
+    groups, half : int
+        Groups, and how many before it each is coupled to.
+    repeats : int
+
+    Returns
+    -------
+    dict
+        ``factor`` [s] of groups * half^2, ``substitution`` [s] of groups * half; medians.
+    """
+    bands = np.full((repeats, groups, half + 1), -1.0)
+    bands[:, :, half] = 2.0 * half + 1.0
+    inverse, y, each = np.empty(groups), np.ones(groups), iter(bands)
+    factor = _median(lambda: coarse.factorise(next(each), inverse), repeats)
+    substitution = _median(lambda: coarse.substitute(bands[-1], inverse, y), repeats)
+    return {"factor": factor / (groups * half**2), "substitution": substitution / (groups * half)}
 
 
 def _median(act, repeats):

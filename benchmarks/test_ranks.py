@@ -28,7 +28,8 @@ def test_weak_scaling(timed, ranks):
 
 
 @group("solvers")
-@pytest.mark.parametrize("solver, ranks", [("iccg", 1), ("piccg", 1), ("piccg", 2), ("scg", 1),
+@pytest.mark.parametrize("solver, ranks", [("deflated", 1), ("deflated", 2), ("iccg", 1),
+                                           ("piccg", 1), ("piccg", 2), ("scg", 1),
                                            ("scg", 2)])  # fmt: skip
 def test_solvers(timed, solver, ranks):
     timed(ranks, {"scheme.solver": solver})

@@ -1,26 +1,30 @@
 """The model of many ranks at its limits."""
 
 import sys
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
 from ranks import ROOT
 
-from mpslab import Simulation, load_case
+from mpslab import Simulation, deflation, load_case
+from mpslab.domain import Domain
+from mpslab.solvers import deflated
 
 sys.path.append(str(ROOT))  # last: the package under test goes first
 
-from benchmarks import calibrate, model
+from benchmarks import calibrate, model, program
 
 MACHINE = {
     "provisional": False,
     "sharing": 1.25,
     "work": {"neighbours": 1e-6, "operators": 2e-6, "assembly": 1e-6, "solve": 1e-7,
-             "ghosts": 1e-6, "record": 1e-7, "rest": 1e-7},
+             "factor": 3e-10, "substitution": 1e-9, "ghosts": 1e-6, "record": 1e-7, "rest": 1e-7},
     "message": {"latency": 1e-5, "bandwidth": 1e9, "sum": 1e-5},
     "measured": [],
 }  # fmt: skip
+COARSE = {name: MACHINE["work"][name] for name in ("factor", "substitution")}
 SPACING = 0.004
 
 
@@ -30,7 +34,7 @@ def tank():
 
 
 def step(tank, ranks):
-    return model.predict(MACHINE, tank.spacing, model.share_out(tank, ranks))
+    return model.predict(MACHINE, tank, model.share_out(tank, ranks))
 
 
 def test_the_tank_has_the_particles_and_the_slabs_of_the_program(tank):
@@ -41,6 +45,26 @@ def test_the_tank_has_the_particles_and_the_slabs_of_the_program(tank):
     np.testing.assert_array_equal(tank.particles, np.bincount(domain.slab, minlength=count))
     water = domain.slab[particles.fluid]
     np.testing.assert_array_equal(tank.water, np.bincount(water, minlength=count))
+
+
+@pytest.mark.parametrize("most", [deflation.MOST, 4])
+def test_the_tank_has_the_groups_of_a_step(monkeypatch, most):
+    made = []
+
+    def keep(system):
+        made.append(deflation.Deflation(system))
+        return made[-1]
+
+    monkeypatch.setattr(deflation, "MOST", most)
+    monkeypatch.setattr(deflated, "Deflation", keep)
+    tank = model.make_tank(SPACING)
+    Simulation(load_case("plunging_breaker", {"particles.spacing": SPACING})).advance()
+    (real,) = made
+    first = real.system.first
+    groups = [len(set(real.group[a:b].tolist())) for a, b in pairwise(first.tolist())]
+    assert tank.groups.tolist() == groups
+    assert 1 < max(groups) <= most
+    assert tank.half == real.band.shape[1] - 1
 
 
 def test_one_rank_costs_what_was_measured_on_one(tank):
@@ -54,9 +78,11 @@ def test_one_rank_costs_what_was_measured_on_one(tank):
         "seconds": [1.06],
     }  # fmt: skip
     found = {"one": [one], "two": [one], "shared": [one]}
-    machine = {**MACHINE, "work": calibrate.work_of(found, SPACING), "sharing": 1.0}
-    predicted = model.predict(machine, SPACING, model.share_out(tank, 1))
+    machine = {**MACHINE, "work": calibrate.work_of(found, COARSE, SPACING), "sharing": 1.0}
+    predicted = model.predict(machine, tank, model.share_out(tank, 1))
     assert predicted.pop("messages") == 0.0
+    assert 0.0 < predicted["coarse"] < predicted["solve"]
+    predicted["solve"] += predicted.pop("coarse")
     assert predicted == pytest.approx(seconds)
 
 
@@ -66,6 +92,52 @@ def test_with_more_ranks_work_falls_and_messages_grow(tank):
         assert more["messages"] > fewer["messages"] > 0.0
         for phase in ("neighbours", "solve", "record"):
             assert more[phase] < fewer[phase]
+
+
+def test_every_rank_does_all_the_work_for_the_groups(tank):
+    alone, *others = [step(tank, ranks)["coarse"] for ranks in (1, 2, 8)]
+    assert alone > 0.0
+    assert others == pytest.approx([MACHINE["sharing"] * alone] * 2)
+
+
+def test_messages_are_those_of_a_step(monkeypatch):
+    """As far as one rank goes through them: it sends no particles, three times in a step."""
+    run = Simulation(load_case("plunging_breaker", {"particles.spacing": 0.006, "tank.width": 0.0}))
+    sums, told, arrays, rows = [], [], [], []
+
+    def count(name, note):
+        method = getattr(Domain, name)
+
+        def act(domain, *given):
+            note(given)
+            return method(domain, *given)
+
+        monkeypatch.setattr(Domain, name, act)
+
+    count("collect", lambda given: sums.append(given[0].shape))
+    count("from_all", told.extend)
+    count("refresh", arrays.extend)
+    count("refresh_rows", rows.append)
+    run.advance()
+    iterations, slabs = run.last_row["iterations"], run.domain.slabs.count
+    by_slab = sums.count((slabs,))
+    (band,) = [shape for shape in sums if len(shape) == 2]
+    assert sums.count(band[:1]) == len(sums) - by_slab - 1 == iterations + model.STEP_SOLVES
+    assert by_slab + 2 * len(told) + 2 * 3 == model.SUMS * iterations + model.STEP_SUMS
+    assert len(rows) + len(arrays) == model.EXCHANGES * iterations + model.STEP_EXCHANGES
+
+
+def test_sums_take_their_latency_and_their_bytes_in_each_round(tank):
+    def messages(tank, **changes):
+        machine = {**MACHINE, "message": {**MACHINE["message"], "latency": 0.0, **changes}}
+        return model.predict(machine, tank, model.share_out(tank, 16))["messages"]
+
+    count, solves = model.iterations(SPACING), model.iterations(SPACING) + model.STEP_SOLVES
+    number = model.SUMS * count + model.STEP_SUMS + solves + 1
+    assert messages(tank, bandwidth=np.inf) == pytest.approx(4 * 1e-5 * number)
+    more = messages(tank) - messages(replace(tank, groups=0 * tank.groups))
+    values = tank.groups.sum() * (solves + tank.half + 1)
+    assert more == pytest.approx(4 * 8 * values / 1e9)
 
 
 def test_no_rank_works_less_than_the_fullest_slab_asks_for(tank):
@@ -103,7 +175,7 @@ def test_iterations_are_the_measured_ones_and_grow_as_the_spacing_falls_beyond()
         assert model.iterations(spacing) == pytest.approx(count)
     finest = min(model.ITERATIONS)
     assert model.iterations(finest / 2.0) == pytest.approx(2.0 * model.ITERATIONS[finest])
-    assert 32.0 < model.iterations(0.0025) < 52.8
+    assert 22.0 < model.iterations(0.00125) < 39.5
 
 
 def test_the_file_of_constants_has_what_the_model_takes(tank):
@@ -111,24 +183,31 @@ def test_the_file_of_constants_has_what_the_model_takes(tank):
     assert machine.keys() == MACHINE.keys()
     for name in ("work", "message"):
         assert machine[name].keys() == MACHINE[name].keys()
-    assert sum(model.predict(machine, SPACING, model.share_out(tank, 2)).values()) > 0.0
+    assert sum(model.predict(machine, tank, model.share_out(tank, 2)).values()) > 0.0
 
 
 def test_what_the_calibration_writes_can_be_read(tank, tmp_path):
     one = {
         "water": 10, "particles": 20, "iterations": 2.0, "seconds": [0.5],
         "phases": {p: dict.fromkeys(("work", "communication", "waiting"), 0.5)
-                   for p in (*MACHINE["work"],)},
+                   for p in MACHINE["work"].keys() - COARSE.keys()},
     }  # fmt: skip
     found = {"one": [one], "two": [one], "shared": [{**one, "seconds": [0.75]}]}
     timed = {"sum": 1e-5, "exchange": [1e-5, 2e-5]}
     path = tmp_path / "machine.toml"
-    path.write_text(calibrate.text(found, timed, SPACING, provisional=True))
+    path.write_text(calibrate.text(found, timed, COARSE, SPACING, provisional=True))
     machine = model.read_machine(path)
     assert machine.keys() == MACHINE.keys()
     assert (machine["provisional"], machine["sharing"]) == (True, 1.5)
     assert machine["work"].keys() == MACHINE["work"].keys()
+    assert {name: machine["work"][name] for name in COARSE} == COARSE
     assert [one["ranks"] for one in machine["measured"]] == [1, 2]
+
+
+def test_work_for_the_groups_is_timed():
+    found = program.time_coarse(groups=200, half=10, repeats=3)
+    assert found.keys() == COARSE.keys()
+    assert min(found.values()) > 0.0
 
 
 def test_a_page_keeps_what_stands_around_the_tables():
