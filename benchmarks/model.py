@@ -15,11 +15,10 @@ from pathlib import Path
 import numpy as np
 
 from mpslab import balance, geometry, load_case, pressure
-from mpslab.deflation import Deflation
+from mpslab.deflation import group_rows
 from mpslab.piston import make_paddle
 from mpslab.rebalance import load
 from mpslab.slabs import WIDTH, make_slabs
-from mpslab.sparse import PressureSystem
 
 HERE = Path(__file__).parent
 DOCS = HERE.parent / "docs"
@@ -32,7 +31,7 @@ ITERATIONS = {0.004: 16.3, 0.003: 21.7, 0.002: 22.0, 0.0015: 22.0, 0.001: 39.5}
 # Messages of an iteration: rows for the product, and three dots, each the sum of a value a slab.
 EXCHANGES, SUMS = 1, 3
 # And of a step: rows and refreshed arrays; sums, with what all ranks tell each other as two each.
-STEP_EXCHANGES, STEP_SUMS = 11, 29
+STEP_EXCHANGES, STEP_SUMS = 11, 31
 # Solves for the groups, each with the sum of a value a group: one an iteration, and before the
 # first and after the last.
 STEP_SOLVES = 2
@@ -75,15 +74,16 @@ def make_tank(spacing):
     radius = spacing * max(flat.scheme.effective_radius, flat.scheme.laplacian_radius)
     slabs = make_slabs(*geometry.extent(flat, backmost), radius)
     slab, fluid = slabs.of(particles.position[:, 0]), particles.fluid
+    water = across * np.bincount(slab[fluid], minlength=slabs.count)
     groups, half = _groups(
         slab[fluid],
         _cell(particles.position[fluid, 2], flat),
         _cell((np.arange(across) + 0.5) * spacing, flat),
-        slabs.count,
+        water,
     )
     return Tank(
         spacing=spacing,
-        water=across * np.bincount(slab[fluid], minlength=slabs.count),
+        water=water,
         particles=across * np.bincount(slab, minlength=slabs.count),
         work=across * load("optimal", fluid, slab, slabs.count),
         groups=groups,
@@ -94,13 +94,11 @@ def make_tank(spacing):
 def _cell(place, case):
     """Cell across the tank of places [m] in y or z, as wide as in `mpslab.pressure.assemble`."""
     radius = case.particles.spacing * case.scheme.laplacian_radius
-    return pressure._across(place, WIDTH * radius)
+    return pressure.cells(place, WIDTH * radius)
 
 
-def _groups(slab, up, aside, slabs):
+def _groups(slab, up, aside, water):
     """Groups of each slab, (slabs,) int, and half the band, as the `Deflation` of a step has them.
-
-    Groups depend on which cells hold water, not on how much: a row for each of them will do.
 
     Parameters
     ----------
@@ -108,21 +106,15 @@ def _groups(slab, up, aside, slabs):
         Slab of each water particle of a slice, and its cell in z.
     aside : (across,) int
         Cell of each slice in y.
-    slabs : int
-        Number of slabs.
+    water : (slabs,) int
+        Water particles.
     """
+    # Which cells hold water decides, not how much: one row for each of them will do.
     wet, aside = np.unique(np.column_stack([slab, up]), axis=0), np.unique(aside)
     slab, up = np.repeat(wet, len(aside), axis=0).T
-    m = len(slab)
-    system = PressureSystem(
-        row=np.zeros(m + 1, np.int32), column=np.empty(0, np.int32), value=np.empty(0),
-        diagonal=np.ones(m), right=np.zeros(m),
-        first=np.searchsorted(slab, np.arange(slabs + 1)).astype(np.int32),
-        cell=np.column_stack([np.tile(aside, len(wet)), up]),
-    )  # fmt: skip
-    made = Deflation(system)
-    _, row = np.unique(made.group, return_index=True)
-    return np.bincount(slab[row], minlength=slabs), made.band.shape[1] - 1
+    cell = np.column_stack([np.tile(aside, len(wet)), up])
+    _, of, half = group_rows(slab, cell, slice(None), water.sum(), lambda item: [item])
+    return np.bincount(of, minlength=len(water)), half
 
 
 def iterations(spacing):

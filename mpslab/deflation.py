@@ -34,7 +34,13 @@ class Deflation:
 
     def __init__(self, system):
         self.system = system
-        self.group, self.count, half = _group(system)
+        slab = np.repeat(np.arange(len(system.first) - 1), np.diff(system.first))
+        begin, end = system.own
+        rows = sum(system.from_all(end - begin))
+        self.group, of, half = group_rows(
+            slab, system.cell, slice(begin, end), rows, system.from_all
+        )
+        self.count = len(of)
         self._couplings(system)
         self._factor(half)
 
@@ -75,23 +81,40 @@ class Deflation:
         coarse.spread(self.group, self._solve(r), x)
 
 
-def _group(system):
-    """Group of each row, (m,) int32, how many there are, and the half width of their band.
+def group_rows(slab, cell, own, rows, from_all):
+    """Group of each row; cells are merged until the factor of the band is cheap.
 
-    The same numbers on every rank.  Cells are merged until the factor of the band is cheap.
+    Parameters
+    ----------
+    slab : (m,) int
+        Slab of each row.
+    cell : (m, 2) int
+        Cell across the tank of each row.
+    own : slice
+        The rows of this rank.
+    rows : int
+        Rows of all ranks.
+    from_all : callable
+        What each rank gives, a list.
+
+    Returns
+    -------
+    group : (m,) int32
+        The same numbers on every rank.
+    of : (groups,) int
+        Slab of each group.
+    half : int
+        Half width of the band of their couplings.
     """
-    slab = np.repeat(np.arange(len(system.first) - 1), np.diff(system.first))
-    merged, cell = 1, system.cell.astype(np.int64)
-    begin, end = system.own
-    rows = sum(system.from_all(end - begin))
+    merged = 1
     while True:
-        part = cell // merged + SIDE // 2
+        part = cell.astype(np.int64) // merged + SIDE // 2
         key = (slab * SIDE + part[:, 0]) * SIDE + part[:, 1]
-        mine = np.unique(key[begin:end])
-        groups = np.unique(np.concatenate(system.from_all(mine)))
-        half = _half_width(np.bincount(groups // SIDE**2))
+        groups = np.unique(np.concatenate(from_all(np.unique(key[own]))))
+        of = groups // SIDE**2
+        half = _half_width(np.bincount(of))
         if len(groups) * half**2 <= WORK * rows:
-            return np.searchsorted(groups, key).astype(np.int32), len(groups), half
+            return np.searchsorted(groups, key).astype(np.int32), of, half
         merged *= 2
 
 

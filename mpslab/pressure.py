@@ -58,15 +58,15 @@ def assemble(
     if surface_pull is not None:
         diagonal += surface_pull[rows]
         excess += surface_pull[rows]
-    cell = _across(particles.position[rows, 1:], slabs.WIDTH * stencil.radius)
+    cell = cells(particles.position[rows, 1:], slabs.WIDTH * stencil.radius)
     system = PressureSystem(row, column, value, diagonal, source[rows], first, domain, cell)
     system.refresh(diagonal)
     _hold_cut_off_rows(system, excess)
     return system, rows
 
 
-def _across(place, width):
-    """Cell of each place (m, 2) [m] across the tank; one that is not a number has one as well."""
+def cells(place, width):
+    """Cell of each place [m] in y or z, so wide [m]; one that is not a number has one as well."""
     return np.fmin(np.fmax(np.floor(place / width), -FAR), FAR).astype(np.int32)
 
 

@@ -43,7 +43,8 @@ class ParticleSeries:
         particles : ParticleSet
             The particles, which may be fewer or more than in the last frame.
         """
-        with h5py.File(self.path, "a") as file:
+        # Without a lock: a program that reads the frames meanwhile must not stop the run.
+        with h5py.File(self.path, "a", locking=False) as file:
             root = _root(file)
             _append_step(root, time, [*self.fields])
             _append_points(root, particles, self.fields)
@@ -228,7 +229,7 @@ def read_frames(path):
 def _opened(path, mode):
     """The file, or a ValueError of one line."""
     try:
-        file = h5py.File(path, mode)
+        file = h5py.File(path, mode, locking=False)
     except OSError as error:
         reason = " ".join(str(error).split())
         raise ValueError(f"particles '{path}': cannot be read as HDF5 ({reason})") from error

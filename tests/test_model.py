@@ -47,15 +47,15 @@ def test_the_tank_has_the_particles_and_the_slabs_of_the_program(tank):
     np.testing.assert_array_equal(tank.water, np.bincount(water, minlength=count))
 
 
-@pytest.mark.parametrize("most", [deflation.MOST, 4])
-def test_the_tank_has_the_groups_of_a_step(monkeypatch, most):
+@pytest.mark.parametrize("work", [deflation.WORK, 1])
+def test_the_tank_has_the_groups_of_a_step(monkeypatch, work):
     made = []
 
     def keep(system):
         made.append(deflation.Deflation(system))
         return made[-1]
 
-    monkeypatch.setattr(deflation, "MOST", most)
+    monkeypatch.setattr(deflation, "WORK", work)
     monkeypatch.setattr(deflated, "Deflation", keep)
     tank = model.make_tank(SPACING)
     Simulation(load_case("plunging_breaker", {"particles.spacing": SPACING})).advance()
@@ -63,7 +63,7 @@ def test_the_tank_has_the_groups_of_a_step(monkeypatch, most):
     first = real.system.first
     groups = [len(set(real.group[a:b].tolist())) for a, b in pairwise(first.tolist())]
     assert tank.groups.tolist() == groups
-    assert 1 < max(groups) <= most
+    assert max(groups) == (6 if work > 1 else 2)
     assert tank.half == real.band.shape[1] - 1
 
 

@@ -1,5 +1,7 @@
 """The particle series: what is written comes back, in h5py and in VTK."""
 
+import fcntl
+
 import h5py
 import numpy as np
 import pytest
@@ -46,6 +48,20 @@ def assert_same_frames(path, frames):
 
 def test_frames_come_back(path, frames):
     assert_same_frames(path, frames)
+
+
+def test_a_reader_does_not_stop_the_writer(path, frames):
+    """HDF5 locks a file that it reads; a run must not fail for someone's looking at it."""
+    with path.open("rb") as reader:
+        fcntl.flock(reader, fcntl.LOCK_SH)
+        vtkhdf.ParticleSeries(path, FIELDS).append(0.3, frames[0][1])
+    assert vtkhdf.read_times(path).tolist() == [0.0, 0.1, 0.25, 0.3]
+
+
+def test_a_writer_does_not_stop_a_reader(path, frames):
+    with path.open("rb") as writer:
+        fcntl.flock(writer, fcntl.LOCK_EX)
+        assert_same_frames(path, frames)
 
 
 def test_kind_is_written_though_not_asked_for(tmp_path):
