@@ -16,10 +16,8 @@ def particle_volume(stencil):
 def max_speed(particles):
     """Largest speed of the fluid and piston particles [m/s]; 0 when there are none."""
     moving = (particles.kind == FLUID) | (particles.kind == PISTON)
-    velocity = particles.velocity[moving]
-    if len(velocity) == 0:
-        return 0.0
-    return float(np.sqrt(np.einsum("ij,ij->i", velocity, velocity).max()))
+    square = np.einsum("ij,ij->i", particles.velocity, particles.velocity)
+    return float(np.sqrt(square.max(initial=0.0, where=moving)))
 
 
 def kinetic_energy(particles, stencil, density, total=np.sum):

@@ -106,7 +106,7 @@ class Domain:
             self.slab = self.slabs.of(particles.position[:, 0])
             self.owned = np.ones(len(particles), bool)
             return particles, companions
-        arrays = self._with_ghosts(self._migrate([*arrays_of(particles), *companions]))
+        arrays = self._share([*arrays_of(particles), *companions])
         count = len(fields(ParticleSet))
         return ParticleSet(*arrays[:count]), arrays[count:]
 
@@ -119,29 +119,38 @@ class Domain:
         self.slab, self.owned = self.slab[mask], self.owned[mask]
         return particles.take(mask)
 
-    def _migrate(self, arrays):
+    def _share(self, arrays):
+        """Arrays of what this rank owns from now on, and of its ghosts, in the order of gid."""
         owner = np.searchsorted(self.cuts, self._slab_of(arrays), side="right") - 1
         leave = [np.flatnonzero(owner == r) if r != self.rank else [] for r in range(self.size)]
         come = self._exchange(arrays, leave)
-        stay = owner == self.rank
         self.migrated += sum(len(c[0]) for c in come)
-        return _merged([[a[stay] for a in arrays], *come]) if come or not stay.all() else arrays
-
-    def _with_ghosts(self, arrays):
-        slab = self._slab_of(arrays)
+        arrays, own = _added(arrays, np.flatnonzero(owner == self.rank), come)
+        slab = self._slab_of(arrays)[own]
         send = [[]] * self.size
         for r in self._beside():
-            send[r] = np.flatnonzero(np.isin(slab, self.ghosts_of(r)))
-        arrays = _merged([arrays, *self._exchange(arrays, send)])
-        self.slab = slab = self._slab_of(arrays)
+            send[r] = own[self._seen_by(r, slab)]
+        arrays, held = _added(arrays, own, self._exchange(arrays, send))
+        held = held[np.argsort(arrays[0][held], kind="stable")]
+        arrays = [a[held] for a in arrays]
+        self._find_halo(self._slab_of(arrays))
+        return arrays
+
+    def _find_halo(self, slab):
+        """Which particles are owned, and which are seen by the ranks beside or seen of them."""
+        self.slab = slab
         self.owned = (self.begin <= slab) & (slab < self.end)
         self.ghosts = int(np.count_nonzero(~self.owned))
         self._halo = []
         for r in self._beside():
-            give = np.flatnonzero(self.owned & np.isin(slab, self.ghosts_of(r)))
+            give = np.flatnonzero(self.owned & self._seen_by(r, slab))
             take = np.flatnonzero((self.cuts[r] <= slab) & (slab < self.cuts[r + 1]))
             self._halo.append((r, give, take))
-        return arrays
+
+    def _seen_by(self, rank, slab):
+        """Whether a rank sees the particles in these slabs as ghosts, if it does not own them."""
+        left, right = self.ghosts_of(rank)
+        return (slab == left) | (slab == right)
 
     def _beside(self):
         """The ranks that own the slabs on either side."""
@@ -254,6 +263,16 @@ POSITION = [f.name for f in fields(ParticleSet)].index("position")
 def arrays_of(particles):
     """The arrays of a ParticleSet, in the order of its fields."""
     return [getattr(particles, f.name) for f in fields(particles)]
+
+
+def _added(arrays, rows, come):
+    """Arrays with what came put behind, and the rows with those of what came."""
+    if not come:
+        return arrays, rows
+    count = sum(len(c[0]) for c in come)
+    new = np.arange(len(arrays[0]), len(arrays[0]) + count)
+    together = [np.concatenate(column) for column in zip(arrays, *come, strict=True)]
+    return together, np.concatenate([rows, new])
 
 
 def _merged(parts):
