@@ -58,7 +58,7 @@ VALUES = [
     ("scheme.gradient", 4, "scheme.gradient = 4: must be text of one line"),
     ("scheme.source", "dens", "scheme.source = 'dens': must be one of adjoint, corrected"),
     ("scheme.laplacian", "lh", "scheme.laplacian = 'lh': must be one of hl, standard"),
-    ("scheme.solver", "cg", "scheme.solver = 'cg': must be one of iccg"),
+    ("scheme.solver", "cg", "scheme.solver = 'cg': must be one of deflated"),
     ("scheme.stabiliser", "ds", "scheme.stabiliser = 'ds': must be a list of different words"),
     ("scheme.stabiliser", ["ds", "ds"], "must be a list of different words"),
     ("scheme.stabiliser", ["shift"], "scheme.stabiliser = 'shift': must be one of collision"),
