@@ -56,3 +56,12 @@ def conjugate_gradient(
     if deflate:
         deflation.complete(x, system.right - system.multiply(x, q))
     return SolverReport(iterations, residual, residual <= tolerance, replaced)
+
+
+def by_diagonal(system):
+    """The preconditioner z = r / diag(A)."""
+
+    def precondition(r, z):
+        np.divide(r, system.diagonal, out=z)
+
+    return precondition

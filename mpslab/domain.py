@@ -131,8 +131,7 @@ class Domain:
         for r in self._beside():
             send[r] = own[self._seen_by(r, slab)]
         arrays, held = _added(arrays, own, self._exchange(arrays, send))
-        held = held[np.argsort(arrays[0][held], kind="stable")]
-        arrays = [a[held] for a in arrays]
+        arrays = _by_gid(arrays, held)
         self._find_halo(self._slab_of(arrays))
         return arrays
 
@@ -218,13 +217,13 @@ class Domain:
         """Sum over all slabs of the sums (slabs,) that their owners give, in the order of slabs."""
         return sum(self.collect(by_slab).tolist())
 
-    def collect(self, by_slab):
-        """Values (slabs,) of all slabs, from those that each rank gives for its own, else 0."""
+    def collect(self, values):
+        """Values of all slabs or groups, from those that each rank gives for its own, else 0."""
         if self.size == 1:
-            return by_slab
-        total = np.empty_like(by_slab)
+            return values
+        total = np.empty_like(values)
         with self.stopwatch.kind(COMMUNICATION):
-            self._wait([self.comm.Iallreduce(by_slab, total)])
+            self._wait([self.comm.Iallreduce(values, total)])
         return total
 
     def total(self, values):
@@ -252,9 +251,9 @@ class Domain:
         if self.size == 1:
             return particles
         arrays = arrays_of(particles)
-        everything = np.arange(len(particles)) if self.rank else []
-        come = self._exchange(arrays, [everything, *[[]] * (self.size - 1)])
-        return ParticleSet(*_merged([arrays, *come])) if self.rank == 0 else None
+        mine = np.arange(len(particles))
+        come = self._exchange(arrays, [mine if self.rank else [], *[[]] * (self.size - 1)])
+        return ParticleSet(*_by_gid(*_added(arrays, mine, come))) if self.rank == 0 else None
 
 
 POSITION = [f.name for f in fields(ParticleSet)].index("position")
@@ -275,8 +274,7 @@ def _added(arrays, rows, come):
     return together, np.concatenate([rows, new])
 
 
-def _merged(parts):
-    """Lists of arrays put together, sorted by the first of them: gid."""
-    together = [np.concatenate(column) for column in zip(*parts, strict=True)]
-    order = np.argsort(together[0], kind="stable")
-    return [a[order] for a in together]
+def _by_gid(arrays, rows):
+    """These rows of the arrays, sorted by the first array: gid."""
+    order = rows[np.argsort(arrays[0][rows], kind="stable")]
+    return [a[order] for a in arrays]

@@ -5,6 +5,8 @@ import json
 import numpy as np
 from matplotlib.figure import Figure
 
+from validation import report
+
 README = """\
 # Standing wave
 
@@ -154,4 +156,10 @@ def save(results, folder):
     picture = Figure(figsize=(6, 2))
     picture.subplots().plot([0, 1], [1, 0])
     picture.savefig(folder / "jet.png")
+    return folder
+
+
+def written(folder):
+    """Results saved in a folder, and their report beside them."""
+    report.write(made(), save(made(), folder))
     return folder

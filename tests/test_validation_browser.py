@@ -4,18 +4,16 @@ import re
 
 import pytest
 from devtools import open_tab
-from results import made, save
+from results import written
 
-from validation import browser, report
+from validation import browser
 
 with_browser = pytest.mark.skipif(not browser.find(), reason="no browser is installed")
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    folder = save(made(), tmp_path_factory.mktemp("results"))
-    report.write(made(), folder)
-    return folder
+    return written(tmp_path_factory.mktemp("results"))
 
 
 @pytest.fixture(scope="module")

@@ -3,16 +3,14 @@
 import re
 
 import pytest
-from results import README, breaker, dispersion, made, metric, save
+from results import README, breaker, dispersion, made, metric, save, written
 
 from validation import browser, report
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    folder = save(made(), tmp_path_factory.mktemp("results"))
-    report.write(made(), folder)
-    return folder
+    return written(tmp_path_factory.mktemp("results"))
 
 
 @pytest.fixture(scope="module")

@@ -1,8 +1,6 @@
 """Deflated conjugate gradients: the diagonal for what is rough, a coarse system for the rest."""
 
-import numpy as np
-
-from mpslab.conjugate_gradient import conjugate_gradient
+from mpslab.conjugate_gradient import by_diagonal, conjugate_gradient
 from mpslab.deflation import Deflation
 
 BY_SLAB = True
@@ -13,11 +11,6 @@ def solve(system, x, tolerance, max_iterations):
 
     Nicolaides (1987); in the form DEF1 of Tang, Nabben, Vuik & Erlangga (2009).
     """
-
-    def precondition(r, z):
-        np.divide(r, system.diagonal, out=z)
-
-    deflation = Deflation(system)
     return conjugate_gradient(
-        system, x, precondition, tolerance, max_iterations, deflation=deflation
+        system, x, by_diagonal(system), tolerance, max_iterations, deflation=Deflation(system)
     )
