@@ -5,6 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
+from matplotlib.image import imread
 
 from validation import __main__ as command
 from validation import judge, result, suite
@@ -59,6 +61,17 @@ def test_a_value_is_held_against_its_band(value, low, high, met):
 MADE = suite.ValidationCase(
     "made", "Made", "Is it?", 1, "", (), (Criterion("a", "A", "because.", "", 0.0, 1.0),)
 )
+
+
+def test_pictures_of_a_case_go_beside_its_file(tmp_path, monkeypatch):
+    comparison = Comparison()
+    comparison.measure("a", 0.5)
+    comparison.picture("The jet", Figure(figsize=(2.0, 1.0)))
+    monkeypatch.setattr(result, "compare", lambda *_: comparison)
+    result.write(tmp_path, *result.make(MADE, "quick", [], {}))
+    (figure,) = json.loads((tmp_path / "made.json").read_text())["figures"]
+    assert figure["title"] == "The jet"
+    assert imread(tmp_path / figure["picture"]).size
 
 
 def judged(value, known=None):

@@ -1,7 +1,6 @@
 """What a case finds: measured values, figures, tables, orders of convergence and notes."""
 
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 
@@ -76,9 +75,9 @@ class Comparison:
         self.figures.append(Figure(title, x, y, equal))
         return self.figures[-1]
 
-    def picture(self, title, path):
-        """Add a picture that is there already, a PNG file."""
-        self.figures.append({"title": title, "picture": Path(path)})
+    def picture(self, title, drawn):
+        """Add a matplotlib Figure, of particles for example; it is kept as a PNG file."""
+        self.figures.append({"title": title, "picture": drawn})
 
     def table(self, title, columns, rows):
         """Add a table; the entries are numbers and texts."""

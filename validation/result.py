@@ -1,18 +1,21 @@
 """The result of a case: a JSON file that the report is drawn from, and pictures beside it."""
 
 import json
-import shutil
 import traceback
 from datetime import UTC, datetime
 
+import matplotlib
 import numpy as np
 
 from mpslab import measures
 from mpslab.files import replacing
+from mpslab.pictures import STYLE
 from mpslab.provenance import environment
 from validation.comparison import Comparison, Figure
 from validation.judge import judge
 from validation.run import Run
+
+PICTURE_DPI = 100
 
 
 def compare(case, suite, outcomes, runs):
@@ -50,8 +53,8 @@ def make(case, suite, outcomes, known):
 
     Returns
     -------
-    dict, dict of str to Path
-        The object, and by the names in it the files of its pictures.
+    dict, dict of str to matplotlib Figure
+        The object, and by the names in it its pictures.
     """
     runs = [Run(outcome.task.folder) for outcome in outcomes]
     found = compare(case, suite, outcomes, runs)
@@ -81,10 +84,10 @@ def make(case, suite, outcomes, known):
 
 
 def _figure(case, figure, pictures):
-    """A figure as the JSON file holds it; the file of a picture goes into `pictures`."""
+    """A figure as the JSON file holds it; a picture goes into `pictures`."""
     if isinstance(figure, Figure):
         return vars(figure)
-    name = f"{case.name}-{figure['picture'].name}"
+    name = f"{case.name}-{len(pictures) + 1}.png"
     pictures[name] = figure["picture"]
     return {**figure, "picture": name}
 
@@ -120,8 +123,9 @@ def _run(outcome, run):
 
 
 def write(out, result, pictures):
-    """Write the JSON file of a case, and copy its pictures beside it."""
+    """Write the JSON file of a case, and its pictures beside it."""
     for name, picture in pictures.items():
-        shutil.copyfile(picture, out / name)
+        with matplotlib.rc_context(STYLE):
+            picture.savefig(out / name, dpi=PICTURE_DPI)
     with replacing(out / f"{result['case']}.json") as draft:
         draft.write_text(json.dumps(result, indent=1), encoding="utf-8")

@@ -3,11 +3,13 @@
 import csv
 from pathlib import Path
 
+import matplotlib
 import numpy as np
 
 from mpslab import breaking, gauges, measures
 from mpslab.overturning import JET
-from mpslab.snapshots import middle_slice
+from mpslab.pictures import STYLE
+from mpslab.snapshots import draw_breaker, middle_slice
 from validation.comparison import Comparison
 from validation.data import foremost
 
@@ -40,6 +42,7 @@ def compare(runs):
     _tell_waves(result, waves)
     _draw_breaking(result, waves)
     _compare_recipes(result, runs, rows)
+    _show_particles(result, runs)
     return result
 
 
@@ -171,3 +174,12 @@ def _compare_recipes(result, runs, rows):
     columns = ["run", "roughness before breaking [m/s]", "after [m/s]", "isolated after [%]",
                "most particles over air"]  # fmt: skip
     result.table("Scatter", columns, lines)
+
+
+def _show_particles(result, runs):
+    """Pictures of each run where a wave overturns first, or is steep and fast."""
+    for name, run in runs.items():
+        with matplotlib.rc_context(STYLE):
+            drawn = draw_breaker(run.folder / "particles.vtkhdf", run.case)
+        if drawn:
+            result.picture(f"The particles of {name}", drawn)
