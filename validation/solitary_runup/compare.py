@@ -9,7 +9,6 @@ from validation.comparison import Comparison
 from validation.data import foremost
 
 DATA = Path(__file__).parent / "data"
-COT = 19.85
 TIMES = (15, 20, 25, 30)  # of the measured profiles, in sqrt(d/g)
 COMPANY = 1  # others within two spacings: the tip of a row has one or two, spray has none
 
@@ -24,21 +23,29 @@ def compare(runs):
         asked, depth = run.case["wavemaker"]["height"] / run.depth, run.depth
         _, height = _crest(run)
         runup = _runup(run) / depth
-        rows.append([name, asked, height / depth / asked, runup, _law(asked), runup / _law(asked)])
+        law = _law(asked, _cot(run))
+        rows.append([name, asked, height / depth / asked, runup, law, runup / law])
     by_name = {row[0]: row for row in rows}
     result.measure("runup_30", by_name[list(high)[-1]][-1])
     result.measure("incident_30", by_name[list(high)[-1]][2])
-    if "0.10-2mm" in runs:
-        result.measure("runup_10", by_name["0.10-2mm"][-1])
+    for name, metric in (("0.10-2mm", "runup_10"), ("steep-2mm", "runup_steep")):
+        if name in runs:
+            result.measure(metric, by_name[name][-1])
     columns = ["run", "H/d asked for", "at X1, ratio", "R/d", "law", "ratio"]
     result.table("Run-up", columns, rows)
-    _draw_law(result, rows)
+    _draw_law(result, [row for row in rows if not row[0].startswith("steep")])
     _compare_profiles(result, finest)
     return result
 
 
-def _law(height):
-    """Run-up over depth of a breaking wave, Synolakis (1987)."""
+def _law(height, cot):
+    """Run-up over depth of a wave that breaks and of one that does not, Synolakis (1987)."""
+    if height > 0.8183 * cot ** (-10 / 9):
+        return _breaking(height)
+    return 2.831 * np.sqrt(cot) * height**1.25
+
+
+def _breaking(height):
     return 1.109 * height**0.582
 
 
@@ -49,17 +56,23 @@ def _crest(run):
     return time[top], level[top] - run.depth
 
 
+def _cot(run):
+    """Length of the beach over its height."""
+    _, (toe, low), (end, high) = run.case["tank"]["bed"]
+    return (end - toe) / (high - low)
+
+
 def _shoreline(run):
     """x of the still shoreline [m]."""
-    (_, _), (toe, _), _ = run.case["tank"]["bed"]
-    return toe + COT * run.depth
+    _, (toe, _), _ = run.case["tank"]["bed"]
+    return toe + _cot(run) * run.depth
 
 
 def _runup(run):
     """Highest place above still water that water with others around it reached [m]."""
     shore = _shoreline(run)
     x = max(foremost(p[p[:, 0] > shore - 0.05], run.spacing, COMPANY) for _, p, _ in run.water())
-    return (x - shore) / COT
+    return (x - shore) / _cot(run)
 
 
 def _draw_law(result, rows):
@@ -68,7 +81,7 @@ def _draw_law(result, rows):
     figure = result.figure("Run-up of breaking waves", "H / d", "R / d")
     figure.points("Synolakis 1987", data[breaking, 0], data[breaking, 1])
     heights = np.linspace(0.05, 0.6, 50)
-    figure.dashed("1.109 (H/d)^0.582", heights, _law(heights))
+    figure.dashed("1.109 (H/d)^0.582", heights, _breaking(heights))
     for name, height, ratio, runup, *_ in rows:
         figure.points(f"standard, {name}", [height * ratio], [runup])
 
@@ -82,7 +95,7 @@ def _compare_profiles(result, run):
         moment, frame = run.frame_at(came + time * unit)
         x, eta = data[data[:, 1] == time][:, 2:].T
         place = _shoreline(run) - x * run.depth
-        bed = (place - (_shoreline(run) - COT * run.depth)) / COT
+        bed = (place - _shoreline(run)) / _cot(run) + run.depth
         seen = (_levels(run, frame, place, bed) - run.depth) / run.depth
         error = np.sqrt(np.mean((seen - eta) ** 2))
         errors.append(error)
