@@ -11,7 +11,7 @@ import numpy as np
 
 # The four families of cells of a PolyData, in the order of the columns of Steps/CellOffsets.
 FAMILIES = ("Vertices", "Lines", "Polygons", "Strips")
-CHUNK_BYTES = 1 << 16
+CHUNK_BYTES, SMALL_CHUNK_BYTES = 1 << 16, 1 << 10
 
 
 class ParticleSeries:
@@ -99,23 +99,42 @@ def _narrow(array):
 
 
 def _extend(group, name, rows):
-    """Add rows at the end of a dataset, which is made if it is not there."""
-    if name not in group:
-        row_bytes = rows.dtype.itemsize * int(np.prod(rows.shape[1:]))
-        group.create_dataset(
-            name,
-            shape=(0, *rows.shape[1:]),
-            maxshape=(None, *rows.shape[1:]),
-            dtype=rows.dtype,
-            chunks=(CHUNK_BYTES // row_bytes, *rows.shape[1:]),
-            compression="gzip",
-            compression_opts=1,
-            shuffle=True,
-        )
-    dataset = group[name]
-    begin = len(dataset)
-    dataset.resize(begin + len(rows), axis=0)
-    dataset[begin:] = rows
+    """Add rows at the end of a dataset, which is made if it is not there.
+
+    By the calls of the HDF5 library itself: a frame is thirty small writes, for which the indexing
+    of h5py takes several times as long.
+    """
+    path = name.encode()
+    if path not in group.id:
+        _create(group, name, rows)
+    if not len(rows):
+        return
+    dataset = h5py.h5d.open(group.id, path)
+    begin = dataset.shape[0]
+    dataset.set_extent((begin + len(rows), *rows.shape[1:]))
+    added = dataset.get_space()
+    added.select_hyperslab((begin, *[0] * (rows.ndim - 1)), rows.shape)
+    dataset.write(h5py.h5s.create_simple(rows.shape), added, np.ascontiguousarray(rows))
+
+
+def _create(group, name, rows):
+    """An empty dataset for rows like these.
+
+    A frame adds either many rows or one.  A chunk is packed anew whenever rows come into it: those
+    of single rows are small and not packed.
+    """
+    single = len(rows) <= 1
+    row_bytes = rows.dtype.itemsize * int(np.prod(rows.shape[1:]))
+    group.create_dataset(
+        name,
+        shape=(0, *rows.shape[1:]),
+        maxshape=(None, *rows.shape[1:]),
+        dtype=rows.dtype,
+        chunks=((SMALL_CHUNK_BYTES if single else CHUNK_BYTES) // row_bytes, *rows.shape[1:]),
+        compression=None if single else "gzip",
+        compression_opts=None if single else 1,
+        shuffle=not single,
+    )
 
 
 def truncate(path, time):
