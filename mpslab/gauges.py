@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from mpslab.kernels import column
 from mpslab.particles import FLUID, PISTON, WALL
 
 # The water level is looked for on a vertical line of points, so many to a particle spacing.
@@ -12,6 +13,9 @@ LARGEST_GAP = 1.0
 # Inside a solid no room is left for water, and a fraction of nothing would be noise.
 LEAST_ROOM = 0.25
 PROBE_RADIUS = 2.1  # [spacings]
+# Share of the largest moment of the neighbours below which they count as in one plane.
+LEAST_SPREAD = 0.04
+ONE_PLACE = 1e-12  # [spacings^2] moment of neighbours that are all at one place
 
 
 def surface_elevation(position, kind, spacing, x, y=0.0, width=0.0):
@@ -55,40 +59,22 @@ def surface_elevation(position, kind, spacing, x, y=0.0, width=0.0):
     lowest = np.floor(height.min()) - 2
     count = POINTS * int(np.ceil(height.max()) + 2 - lowest) + 1
     level = lowest + np.arange(count) / POINTS
-    fluid = _spread(height[is_fluid], weight[is_fluid], lowest, count)
-    solid = _spread(height[~is_fluid], weight[~is_fluid], lowest, count)
+    fluid, solid = np.zeros(count), np.zeros(count)
+    column.spread(height - lowest, weight, is_fluid.view(np.uint8), POINTS, fluid, solid)
     room = np.maximum(1.0 - solid, LEAST_ROOM)
     return spacing * _top(level, fluid - 0.5 * room, fluid + solid >= 0.5)
 
 
 def _column(position, spacing, x, y, width):
     """Rows of the particles around a vertical line, and their horizontal weights."""
-    near = np.flatnonzero(np.abs(position[:, 0] - x) < 1.5 * spacing)
-    weight = _spline((position[near, 0] - x) / spacing)
-    across = position[near, 1]
-    if len(near) and np.ptp(across) > 0.0:
-        weight = weight * _spline(_minimal_image(across - y, width) / spacing)
-    return near[weight > 0.0], weight[weight > 0.0]
+    near, weight = np.empty(len(position), np.int32), np.empty(len(position))
+    count = column.around(position, spacing, x, y, width, near, weight)
+    return near[:count], weight[:count]
 
 
 def _minimal_image(offset, width):
     """Distance in y to the nearest of the periodic images."""
     return offset - width * np.round(offset / width) if width else offset
-
-
-def _spline(t):
-    """Quadratic B-spline, t in spacings: a bell of half width 1.5 and of area one."""
-    t = np.abs(t)
-    return np.where(t < 0.5, 0.75 - t**2, 0.5 * np.maximum(1.5 - t, 0.0) ** 2)
-
-
-def _spread(height, weight, lowest, count):
-    """Sum of weighted splines at the points of the vertical line, heights in spacings."""
-    reach = np.arange(-2 * POINTS, 2 * POINTS + 1)
-    nearest = np.round((height - lowest) * POINTS).astype(int)
-    point = nearest[:, None] + reach
-    value = weight[:, None] * _spline(point / POINTS - (height - lowest)[:, None])
-    return np.bincount(point.ravel(), value.ravel(), minlength=count)[:count]
 
 
 def _top(level, excess, occupied):
@@ -153,8 +139,12 @@ def _least_squares(offset, values):
     if not len(offset):
         return np.full(values.shape[1], np.nan)
     weight = (1.0 - np.sqrt(np.einsum("ij,ij->i", offset, offset)) / PROBE_RADIUS) ** 2
-    centre = np.average(offset, axis=0, weights=weight)
-    mean = np.average(values, axis=0, weights=weight)
-    root = np.sqrt(weight)[:, None]
-    slope, *_ = np.linalg.lstsq(root * (offset - centre), root * (values - mean), rcond=0.2)
+    weight /= weight.sum()
+    centre, mean = weight @ offset, weight @ values
+    offset, values = offset - centre, values - mean
+    moment = (weight * offset.T) @ offset
+    size, axes = np.linalg.eigh(moment)
+    differ = size > max(LEAST_SPREAD * size[-1], ONE_PLACE)
+    along = axes[:, differ]
+    slope = along @ ((along.T @ (weight * offset.T) @ values) / size[differ, None])
     return mean - centre @ slope

@@ -1,5 +1,7 @@
 """The free surface: which particles it is made of, and how p = 0 holds there."""
 
+from functools import cache
+
 import numpy as np
 
 from mpslab.kernels import density
@@ -65,6 +67,7 @@ def _between(value, zero, one):
     return np.clip((value - zero) / (one - zero), 0.0, 1.0)
 
 
+@cache
 def _lattice_sum(stencil, pair_terms):
     """Sum of the Laplacian's pair weight over the full lattice [1/m2]."""
     reach = int(np.ceil(stencil.radius / stencil.spacing)) + 1

@@ -1,0 +1,65 @@
+"""The column of water over a place, which a gauge reads."""
+from libc.math cimport fabs, rint
+
+
+cdef inline double spline(double t) noexcept nogil:
+    """Quadratic B-spline, t in spacings: a bell of half width 1.5 and of area one."""
+    t = fabs(t)
+    if t < 0.5:
+        return 0.75 - t * t
+    return 0.5 * (1.5 - t) * (1.5 - t) if t < 1.5 else 0.0
+
+
+def around(const double[:, ::1] position, double spacing, double x, double y, double width,
+           int[::1] near, double[::1] weight):
+    """Rows of the particles less than 1.5 spacings from a vertical line along x and y, and their
+    weights: splines of both distances, or of the first where all have the same y.
+
+    near, weight : (n,) out, filled from the beginning
+
+    Returns how many there are.
+    """
+    cdef Py_ssize_t i, k, count = 0, kept = 0
+    cdef double dy, w
+    cdef bint flat = True
+    with nogil:
+        for i in range(position.shape[0]):
+            if fabs(position[i, 0] - x) < 1.5 * spacing:
+                near[count] = <int>i
+                count += 1
+                flat = flat and position[i, 1] == position[near[0], 1]
+        for k in range(count):
+            i = near[k]
+            w = spline((position[i, 0] - x) / spacing)
+            if not flat:
+                dy = position[i, 1] - y
+                if width > 0.0:
+                    dy -= width * rint(dy / width)
+                w *= spline(dy / spacing)
+            if w > 0.0:
+                near[kept] = <int>i
+                weight[kept] = w
+                kept += 1
+    return kept
+
+
+def spread(const double[::1] height, const double[::1] weight, const unsigned char[::1] wet,
+           int points, double[::1] fluid, double[::1] solid):
+    """Add the weighted splines of particles to the points of a vertical line.
+
+    height : (n,) above the first point [spacings]
+    wet : (n,) whether a particle is fluid
+    points : to a spacing
+    fluid, solid : (m,) sums, changed in place
+    """
+    cdef Py_ssize_t i, k, nearest, reach = 2 * points
+    cdef double value
+    with nogil:
+        for i in range(height.shape[0]):
+            nearest = <Py_ssize_t>rint(height[i] * points)
+            for k in range(max(nearest - reach, 0), min(nearest + reach + 1, fluid.shape[0])):
+                value = weight[i] * spline(<double>k / points - height[i])
+                if wet[i]:
+                    fluid[k] += value
+                else:
+                    solid[k] += value
