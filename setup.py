@@ -16,6 +16,8 @@ from setuptools import Extension, setup
 
 CHECKED = os.environ.get("MPSLAB_CHECKED") == "1"
 PORTABLE = os.environ.get("MPSLAB_PORTABLE") == "1"
+# Each kind of build in its own place: none takes over what another has compiled.
+KIND = "kernels-checked" if CHECKED else "kernels-portable" if PORTABLE else "kernels"
 
 # Fast mathematics lets the compiler sum a row in vector lanes.  Not-a-number stays a number that
 # can be tested for, and nothing goes into the link arguments: there, the option would switch
@@ -44,8 +46,11 @@ setup(
     ext_modules=cythonize(
         list(extensions()),
         compiler_directives=DIRECTIVES,
-        build_dir="build/cython-checked" if CHECKED else "build/cython",
+        build_dir=f"build/{KIND}/cython",
         nthreads=os.cpu_count() or 1,
     ),
-    options={"build_ext": {"parallel": os.cpu_count() or 1, "force": CHECKED or PORTABLE}},
+    options={
+        "build_ext": {"parallel": os.cpu_count() or 1, "force": CHECKED or PORTABLE},
+        "build": {"build_base": f"build/{KIND}"},
+    },
 )
