@@ -137,7 +137,13 @@ def test_harmonics_of_a_known_wave_come_back():
 
 def test_a_known_decay_comes_back():
     x = np.linspace(0.0, 3.0, 7)
-    assert np.allclose(decay(x, 0.02 * np.exp(-0.3 * x)), (0.3, 0.02))
+    assert np.allclose(decay(x, 0.02 * np.exp(-0.3 * x)), (0.3, 0.02, 0.0), atol=1e-6)
+
+
+def test_scatter_of_the_amplitudes_shows_in_the_error_of_the_decay():
+    x, scatter = np.linspace(0.0, 3.0, 7), np.array([1.0, -2.0, 1.0, 0.0, -1.0, 2.0, -1.0])
+    small, large = (decay(x, np.exp(-0.3 * x + size * scatter))[2] for size in (0.01, 0.02))
+    assert np.isclose(large, 2.0 * small)
 
 
 def test_spray_is_not_the_foremost_water():

@@ -37,6 +37,12 @@ def harmonics(time, level, period, start, periods):
 
 
 def decay(x, amplitude):
-    """Rate b [1/m] of the fit A exp(-b x) to amplitudes (n,) at places x (n,) [m]; A as well."""
-    slope, intercept = np.polyfit(x, np.log(amplitude), 1)
-    return -slope, np.exp(intercept)
+    """Rate b [1/m] of the fit A exp(-b x) to amplitudes (n,) at places x (n,) [m].
+
+    Returns
+    -------
+    (3,) float64
+        The rate b, A, and the standard error of b.
+    """
+    (slope, intercept), covariance = np.polyfit(x, np.log(amplitude), 1, cov=True)
+    return np.array([-slope, np.exp(intercept), np.sqrt(covariance[0, 0])])
