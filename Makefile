@@ -1,4 +1,4 @@
-# mpslab: two commands do everything on a fresh machine with Python 3.11 or later and gcc.
+# mpslab: the commands, on a fresh machine with Python 3.11 or later and gcc.
 
 PYTHON ?= python3
 BIN := .venv/bin

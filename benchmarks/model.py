@@ -1,4 +1,4 @@
-"""``python -m benchmarks.model``: what the paper's tank would cost on up to 1,024 ranks.
+"""``python -m benchmarks.model``: what the paper's tank would cost on up to a rank a slab.
 
 A step lasts as long as its busiest rank works, phase by phase, and then come the messages.  Who
 owns what is not modelled: the tank is built and cut as the program does it.  The solver is

@@ -124,7 +124,7 @@ def _compare_square(result, run):
 
 
 def _pressure(run):
-    """Mean pressure of the water in the middle tenth of the square, at a tenth of a turn [Pa]."""
+    """Mean pressure of the water in the middle tenth of the square, at rate x time = 0.1 [Pa]."""
     _, frame = run.frame_at(EARLY / run.case["initial"]["rate"])
     wet, x = frame["kind"] == FLUID, frame["position"]
     near = np.linalg.norm(x - x[wet].mean(axis=0), axis=1) < 0.1 * _side(run)

@@ -17,7 +17,7 @@ DATA = Path(__file__).parent / "data" / "cornell_lab_slope1to10_breakers.csv"
 HEIGHT, DEEP_HEIGHT = 0.0196, 0.0186  # [m] of the paper, and unshoaled
 SLOPE, TOE, BEACH = 0.1, 0.2, 0.55  # [-], [m], [m]: water beyond runs up
 SECOND, THIRD = (1.2, 1.75), (1.9, 2.6)  # seconds in which these waves break
-LATER = 1.5  # [s]: the first wave has run down
+LATER = 2.3  # [s]: the water of the first wave has run down
 BEFORE = (0.3, 0.8)  # seconds before the first wave breaks
 COMPANY = 1  # others within two spacings: the tip of a row has one or two, spray has none
 

@@ -52,8 +52,7 @@ def _along(run):
     for gauge in run.case["gauge"]:
         x, (time, level) = gauge["x"], run.gauge(gauge["name"])
         came = maker["start"] + SETTLE * period + x / speed
-        back = max(maker["start"] + (2.0 * toe - x) / speed, came + PERIODS * period)
-        end = min(back, time[-1])
+        end = min(maker["start"] + (2.0 * toe - x) / speed, time[-1])
         periods = int((end - came) / period + 0.3)
         found = np.full(3, np.nan)
         if periods >= PERIODS:
