@@ -1,5 +1,7 @@
 """Conservative corrected pressure gradient (reverse kernel gradient correction)."""
-from mpslab.kernels.pair cimport FLUID, distance, has_pressure, weight, wrap
+from mpslab.kernels.pair cimport FLUID, distance, weight, wrap
+
+from mpslab.kernels import shares
 
 CONSERVES_MOMENTUM = True
 EXACT_FOR_LINEAR = False
@@ -17,8 +19,9 @@ def gradient(const double[:, ::1] position, const double[::1] pressure,
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = stencil.dim / stencil.n0
-    cdef double dx, dy, dz, r, w, pi, pj, gx, gy, gz
-    cdef Py_ssize_t i, k, j, m
+    cdef const double[::1] water = shares.of_water(kind), loaded = shares.of_loaded(kind)
+    cdef double dx, dy, dz, r, w, pi, a, b, xx, yy, zz, xy, xz, yz, gx, gy, gz
+    cdef Py_ssize_t i, k, j
     with nogil:
         for i in range(indptr.shape[0] - 1):
             gx = gy = gz = 0.0
@@ -29,16 +32,18 @@ def gradient(const double[:, ::1] position, const double[::1] pressure,
                 dy = wrap(position[j, 1] - position[i, 1], width)
                 dz = position[j, 2] - position[i, 2]
                 r = distance(dx, dy, dz, floor)
-                w = weight(r, radius) / (r * r)
-                w = w if has_pressure(kind[j]) else 0.0
-                pj = pressure[j]
-                m = j if kind[j] == FLUID else i
-                gx += w * ((pi * c[m, 0] + pj * c[i, 0]) * dx + (pi * c[m, 3] + pj * c[i, 3]) * dy
-                           + (pi * c[m, 4] + pj * c[i, 4]) * dz)
-                gy += w * ((pi * c[m, 3] + pj * c[i, 3]) * dx + (pi * c[m, 1] + pj * c[i, 1]) * dy
-                           + (pi * c[m, 5] + pj * c[i, 5]) * dz)
-                gz += w * ((pi * c[m, 4] + pj * c[i, 4]) * dx + (pi * c[m, 5] + pj * c[i, 5]) * dy
-                           + (pi * c[m, 2] + pj * c[i, 2]) * dz)
+                w = loaded[j] * weight(r, radius) / (r * r)
+                a = pi * water[j]
+                b = pi - a + pressure[j]
+                xx = a * c[j, 0] + b * c[i, 0]
+                yy = a * c[j, 1] + b * c[i, 1]
+                zz = a * c[j, 2] + b * c[i, 2]
+                xy = a * c[j, 3] + b * c[i, 3]
+                xz = a * c[j, 4] + b * c[i, 4]
+                yz = a * c[j, 5] + b * c[i, 5]
+                gx += w * (xx * dx + xy * dy + xz * dz)
+                gy += w * (xy * dx + yy * dy + yz * dz)
+                gz += w * (xz * dx + yz * dy + zz * dz)
             out[i, 0] = factor * gx
             out[i, 1] = factor * gy
             out[i, 2] = factor * gz

@@ -1,5 +1,7 @@
 """Rates of compression, for the right-hand sides of the pressure equation."""
-from mpslab.kernels.pair cimport FLUID, distance, weight, wrap
+from mpslab.kernels.pair cimport distance, weight, wrap
+
+from mpslab.kernels import shares
 
 
 def divergence(const double[:, ::1] position, const double[:, ::1] velocity,
@@ -89,14 +91,16 @@ def adjoint_divergence(const double[:, ::1] position, const double[:, ::1] veloc
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = stencil.dim / stencil.n0
-    cdef double dx, dy, dz, r, ux, uy, uz, total
-    cdef Py_ssize_t i, k, j, m
+    cdef const double[::1] water = shares.of_water(kind)
+    cdef double dx, dy, dz, r, ux, uy, uz, a, b, total
+    cdef Py_ssize_t i, k, j
     with nogil:
         for i in range(indptr.shape[0] - 1):
             total = 0.0
             for k in range(indptr[i], indptr[i + 1]):
                 j = indices[k]
-                m = j if kind[j] == FLUID else i
+                a = water[j]
+                b = 1.0 - a
                 dx = position[j, 0] - position[i, 0]
                 dy = wrap(position[j, 1] - position[i, 1], width)
                 dz = position[j, 2] - position[i, 2]
@@ -104,8 +108,11 @@ def adjoint_divergence(const double[:, ::1] position, const double[:, ::1] veloc
                 uy = velocity[j, 1] - velocity[i, 1]
                 uz = velocity[j, 2] - velocity[i, 2]
                 r = distance(dx, dy, dz, floor)
-                total += (ux * (c[m, 0] * dx + c[m, 3] * dy + c[m, 4] * dz)
-                          + uy * (c[m, 3] * dx + c[m, 1] * dy + c[m, 5] * dz)
-                          + uz * (c[m, 4] * dx + c[m, 5] * dy + c[m, 2] * dz)
+                total += ((a * c[j, 0] + b * c[i, 0]) * ux * dx
+                          + (a * c[j, 1] + b * c[i, 1]) * uy * dy
+                          + (a * c[j, 2] + b * c[i, 2]) * uz * dz
+                          + (a * c[j, 3] + b * c[i, 3]) * (ux * dy + uy * dx)
+                          + (a * c[j, 4] + b * c[i, 4]) * (ux * dz + uz * dx)
+                          + (a * c[j, 5] + b * c[i, 5]) * (uy * dz + uz * dy)
                           ) * weight(r, radius) / (r * r)
             out[i] = factor * total

@@ -1,5 +1,9 @@
 """Correction matrix of the gradient: the inverse of the neighbours' second moment."""
-from mpslab.kernels.pair cimport distance, has_pressure, weight, wrap
+import numpy as np
+
+from mpslab.kernels.pair cimport distance, weight, wrap
+
+from mpslab.kernels import shares
 
 
 def correction_matrix(const double[:, ::1] position, const signed char[::1] kind,
@@ -13,6 +17,7 @@ def correction_matrix(const double[:, ::1] position, const signed char[::1] kind
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = stencil.dim / stencil.n0
+    cdef const double[::1] share = np.ones(kind.shape[0]) if dummies else shares.of_loaded(kind)
     cdef bint flat = stencil.dim == 2
     cdef double dx, dy, dz, r, w, xx, yy, zz, xy, xz, yz, det
     cdef Py_ssize_t i, k, j
@@ -25,8 +30,7 @@ def correction_matrix(const double[:, ::1] position, const signed char[::1] kind
                 dy = wrap(position[j, 1] - position[i, 1], width)
                 dz = position[j, 2] - position[i, 2]
                 r = distance(dx, dy, dz, floor)
-                w = factor * weight(r, radius) / (r * r)
-                w = w if dummies or has_pressure(kind[j]) else 0.0
+                w = factor * share[j] * weight(r, radius) / (r * r)
                 xx += w * dx * dx
                 yy += w * dy * dy
                 zz += w * dz * dz

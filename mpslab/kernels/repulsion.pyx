@@ -1,7 +1,11 @@
 """Displacements that keep particles apart: shifting, dynamic stabilisation, collision."""
+import numpy as np
+
 from libc.math cimport sqrt
 
 from mpslab.kernels.pair cimport FLUID, distance, has_pressure, weight, wrap
+
+from mpslab.kernels import shares
 
 
 def shifting(const double[:, ::1] position, const signed char[::1] kind,
@@ -16,16 +20,16 @@ def shifting(const double[:, ::1] position, const signed char[::1] kind,
     factor : [m2]
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
-    cdef double dx, dy, dz, r, w, sx, sy, sz, length
-    cdef Py_ssize_t i, k, j, m
-    cdef int near_surface
+    cdef const double[::1] water = shares.of_water(kind), free = np.asarray(surface, float)
+    cdef double dx, dy, dz, r, w, a, b, xx, yy, zz, xy, xz, yz, sx, sy, sz, near_surface, length
+    cdef Py_ssize_t i, k, j
     with nogil:
         for i in range(indptr.shape[0] - 1):
             out[i, 0] = out[i, 1] = out[i, 2] = 0.0
             if kind[i] != FLUID or surface[i]:
                 continue
             sx = sy = sz = 0.0
-            near_surface = 0
+            near_surface = 0.0
             for k in range(indptr[i], indptr[i + 1]):
                 j = indices[k]
                 dx = position[j, 0] - position[i, 0]
@@ -33,15 +37,19 @@ def shifting(const double[:, ::1] position, const signed char[::1] kind,
                 dz = position[j, 2] - position[i, 2]
                 r = distance(dx, dy, dz, floor)
                 w = 0.5 * weight(r, radius) / (r * r)
-                near_surface += (surface[j] != 0) & (r < radius)
-                m = j if kind[j] == FLUID else i
-                sx += w * ((c[i, 0] + c[m, 0]) * dx + (c[i, 3] + c[m, 3]) * dy
-                           + (c[i, 4] + c[m, 4]) * dz)
-                sy += w * ((c[i, 3] + c[m, 3]) * dx + (c[i, 1] + c[m, 1]) * dy
-                           + (c[i, 5] + c[m, 5]) * dz)
-                sz += w * ((c[i, 4] + c[m, 4]) * dx + (c[i, 5] + c[m, 5]) * dy
-                           + (c[i, 2] + c[m, 2]) * dz)
-            if near_surface:
+                near_surface += free[j] * (r < radius)
+                a = water[j]
+                b = 2.0 - a
+                xx = a * c[j, 0] + b * c[i, 0]
+                yy = a * c[j, 1] + b * c[i, 1]
+                zz = a * c[j, 2] + b * c[i, 2]
+                xy = a * c[j, 3] + b * c[i, 3]
+                xz = a * c[j, 4] + b * c[i, 4]
+                yz = a * c[j, 5] + b * c[i, 5]
+                sx += w * (xx * dx + xy * dy + xz * dz)
+                sy += w * (xy * dx + yy * dy + yz * dz)
+                sz += w * (xz * dx + yz * dy + zz * dz)
+            if near_surface > 0.0:
                 continue
             length = factor * sqrt(sx * sx + sy * sy + sz * sz)
             w = -factor * (longest / length if length > longest else 1.0)

@@ -1,5 +1,9 @@
 """Viscous acceleration."""
+import numpy as np
+
 from mpslab.kernels.pair cimport FLUID, distance, weight, wrap
+
+from mpslab.kernels import shares
 
 
 def viscous_acceleration(const double[:, ::1] position, const double[:, ::1] velocity,
@@ -13,6 +17,7 @@ def viscous_acceleration(const double[:, ::1] position, const double[:, ::1] vel
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = viscosity * 2.0 * stencil.dim / (stencil.lambda0 * stencil.n0)
+    cdef const double[::1] share = shares.of_water(kind) if slip else np.ones(kind.shape[0])
     cdef double x, y, z, w, ax, ay, az
     cdef Py_ssize_t i, k, j
     with nogil:
@@ -23,9 +28,9 @@ def viscous_acceleration(const double[:, ::1] position, const double[:, ::1] vel
             ax = ay = az = 0.0
             for k in range(indptr[i], indptr[i + 1]):
                 j = indices[k]
-                w = weight(distance(position[j, 0] - x, wrap(position[j, 1] - y, width),
-                                    position[j, 2] - z, floor), radius)
-                w = 0.0 if slip and kind[j] != FLUID else w
+                w = share[j] * weight(distance(position[j, 0] - x,
+                                               wrap(position[j, 1] - y, width),
+                                               position[j, 2] - z, floor), radius)
                 ax += (velocity[j, 0] - velocity[i, 0]) * w
                 ay += (velocity[j, 1] - velocity[i, 1]) * w
                 az += (velocity[j, 2] - velocity[i, 2]) * w
