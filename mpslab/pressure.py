@@ -94,10 +94,10 @@ def _reached(system, tied):
 
     Each rank looks among its own rows and ghosts, until no path leads across a border any more.
     """
-    reached, queue = tied.astype(np.uint8), np.empty(len(system), np.int32)
+    reached = tied.astype(np.uint8)
     system.refresh(reached)
     while True:
-        poisson.reach(system.row, system.column, queue, reached)
+        poisson.reach(system.row, system.column, reached)
         found = reached.copy()
         system.refresh(reached)
         if not any(system.from_all(bool(np.any(reached != found)))):

@@ -1,6 +1,10 @@
 """Assembly of the Poisson equation of pressure."""
 from mpslab.kernels.pair cimport distance, has_pressure, wrap
 
+# Neighbours whose coefficients are computed together, in vector lanes, before they are looked at.
+cdef enum:
+    LANES = 64
+
 
 def assemble(const double[:, ::1] position, const signed char[::1] kind, const int[::1] indptr,
              const int[::1] indices, const int[::1] rows, const int[::1] unknown, stencil,
@@ -17,53 +21,65 @@ def assemble(const double[:, ::1] position, const signed char[::1] kind, const i
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double one = pair_terms[0], inverse = pair_terms[1], cubic = pair_terms[2]
     cdef double a, total, free
-    cdef Py_ssize_t m, i, k, j
+    cdef double[LANES] pair
+    cdef Py_ssize_t m, i, k, j, begin, end
     cdef int entry = 0
     with nogil:
         for m in range(rows.shape[0]):
             i = rows[m]
             row[m] = entry
             total = free = 0.0
-            for k in range(indptr[i], indptr[i + 1]):
-                j = indices[k]
-                if not has_pressure(kind[j]):
-                    continue
-                a = scale * coefficient(
-                    distance(position[j, 0] - position[i, 0],
-                             wrap(position[j, 1] - position[i, 1], width),
-                             position[j, 2] - position[i, 2], floor),
-                    radius, one, inverse, cubic)
-                if a == 0.0:
-                    continue
-                total += a
-                if unknown[j] < 0:
-                    free += a
-                else:
-                    column[entry] = unknown[j]
-                    value[entry] = -a
-                    entry += 1
+            end = indptr[i]
+            while end < indptr[i + 1]:
+                begin, end = end, min(end + LANES, indptr[i + 1])
+                for k in range(begin, end):
+                    j = indices[k]
+                    pair[k - begin] = scale * coefficient(
+                        distance(position[j, 0] - position[i, 0],
+                                 wrap(position[j, 1] - position[i, 1], width),
+                                 position[j, 2] - position[i, 2], floor),
+                        radius, one, inverse, cubic)
+                for k in range(begin, end):
+                    j, a = indices[k], pair[k - begin]
+                    if a == 0.0 or not has_pressure(kind[j]):
+                        continue
+                    total += a
+                    if unknown[j] < 0:
+                        free += a
+                    else:
+                        column[entry] = unknown[j]
+                        value[entry] = -a
+                        entry += 1
             diagonal[m] = total
             excess[m] = free
         row[diagonal.shape[0]] = entry
     return entry
 
 
-def reach(const int[::1] row, const int[::1] column, int[::1] queue, unsigned char[::1] reached):
-    """Mark the rows that can be reached from those marked; returns how many there are then."""
-    cdef Py_ssize_t m, k
-    cdef int head = 0, tail = 0, c
+def reach(const int[::1] row, const int[::1] column, unsigned char[::1] reached):
+    """Mark the rows that can be reached from those marked, over symmetric couplings.
+
+    Sweeps forth and back: a row looks for the first one it is coupled to that is marked already.
+    """
+    cdef Py_ssize_t m, rows = reached.shape[0]
+    cdef bint found = True
     with nogil:
-        for m in range(reached.shape[0]):
-            if reached[m]:
-                queue[tail] = <int>m
-                tail += 1
-        while head < tail:
-            m = queue[head]
-            head += 1
-            for k in range(row[m], row[m + 1]):
-                c = column[k]
-                if not reached[c]:
-                    reached[c] = 1
-                    queue[tail] = c
-                    tail += 1
-    return tail
+        while found:
+            found = False
+            for m in range(rows):
+                found |= touches(m, row, column, reached)
+            for m in range(rows - 1, -1, -1):
+                found |= touches(m, row, column, reached)
+
+
+cdef inline bint touches(Py_ssize_t m, const int[::1] row, const int[::1] column,
+                         unsigned char[::1] reached) noexcept nogil:
+    """Mark a row that is not, if one that it is coupled to is; whether that was so."""
+    cdef Py_ssize_t k
+    if reached[m]:
+        return False
+    for k in range(row[m], row[m + 1]):
+        if reached[column[k]]:
+            reached[m] = 1
+            return True
+    return False
