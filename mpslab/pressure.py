@@ -49,7 +49,7 @@ def assemble(
     unknown = np.full(len(particles), -1, np.int32)
     unknown[rows] = np.arange(m, dtype=np.int32)
     row, diagonal, excess = np.empty(m + 1, np.int32), np.empty(m), np.empty(m)
-    column, value = np.empty(most, np.int32), np.empty(most)
+    column, value = np.empty(most, np.int32), np.empty(most, np.float32)
     entries = poisson.assemble(
         particles.position, kind, neighbors.indptr, neighbors.indices, rows, unknown,
         stencil, pair_terms, 1.0 / density, row, column, value, diagonal, excess,

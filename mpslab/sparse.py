@@ -15,7 +15,7 @@ class PressureSystem:
     ----------
     row : (m + 1,) int32
     column : (entries,) int32, in a row in the order of the particles' gid
-    value : (entries,) float64
+    value : (entries,) float32
     diagonal : (m,) float64
     right : (m,) float64
     first : (slabs + 1,) int32

@@ -5,7 +5,8 @@ import pytest
 from tanks import cloud, flow_of, make_case, matrices_of, neighbors_of, run
 
 from mpslab import plugins
-from mpslab.kernels import density, divergence, sparse
+from mpslab.kernels import density, divergence, moments, repulsion, sparse, viscosity
+from mpslab.particles import FLUID, WALL
 from mpslab.stencil import make_stencil
 
 SHIFTS = range(8, 64, 8)  # bytes; 64 is a line of the cache
@@ -54,7 +55,7 @@ def matrix():
     found = neighbors_of(cloud(3, 500, 1), 2.1)
     random = np.random.default_rng(2)
     value, diagonal = random.normal(size=len(found.indices)), random.normal(size=500)
-    return found.indptr, found.indices, value, diagonal
+    return found.indptr, found.indices, value.astype(np.float32), diagonal
 
 
 def test_product_does_not_depend_on_the_address():
@@ -83,6 +84,28 @@ def test_particle_sums_do_not_depend_on_the_address():
         density.number_density(shifted(position, by), *rows, stencil, n)
         divergence.density_rate(shifted(position, by), shifted(velocity, by), *rows, stencil, rate)
         return n.tobytes() + rate.tobytes()
+
+    assert len({sums(by) for by in (0, *SHIFTS)}) == 1
+
+
+def test_sums_with_matrices_do_not_depend_on_the_address():
+    position = cloud(3, 500, 1)
+    velocity = np.random.default_rng(4).normal(size=position.shape)
+    kind = np.random.default_rng(5).choice([FLUID] * 4 + [WALL], 500).astype(np.int8)
+    surface = (position[:, 2] > 2.0).astype(np.uint8)
+    found, stencil = neighbors_of(position, 2.1), make_stencil(3, 1.0, 2.1)
+
+    def sums(by):
+        c, rate, drag, move = (np.empty((500, n)) for n in (6, 1, 3, 3))
+        x, u, k = shifted(position, by), shifted(velocity, by), shifted(kind, by)
+        rows = shifted(found.indptr, by), shifted(found.indices, by)
+        moments.correction_matrix(x, k, *rows, stencil, True, 0.6, c)
+        c = shifted(c, by)
+        divergence.adjoint_divergence(x, u, k, *rows, stencil, c, rate[:, 0])
+        viscosity.viscous_acceleration(x, u, k, *rows, stencil, 1.0, True, drag)
+        repulsion.shifting(x, k, shifted(surface, by), *rows, stencil, c, 1.0, 0.1, move)
+        assert np.any(move)
+        return b"".join(a.tobytes() for a in (c, rate, drag[kind == FLUID], move))
 
     assert len({sums(by) for by in (0, *SHIFTS)}) == 1
 

@@ -103,7 +103,7 @@ def test_zero_right_hand_side_gives_zero_pressure(name):
 @pytest.mark.parametrize("name", NAMES)
 def test_system_without_rows_is_solved(name):
     empty, none = np.zeros(0), np.zeros(0, np.int32)
-    system = PressureSystem(np.zeros(1, np.int32), none, empty, empty, empty)
+    system = PressureSystem(np.zeros(1, np.int32), none, empty.astype(np.float32), empty, empty)
     assert solve(name, system, empty.copy()).converged
 
 
@@ -205,7 +205,7 @@ def test_substitution_inverts_the_factor():
 def test_lost_pivots_are_put_back_and_counted():
     """A matrix that is not positive definite: the second pivot would be 1 - 4 < 0."""
     row, column = np.array([0, 1, 2], np.int32), np.array([1, 0], np.int32)
-    value, ones = np.array([-2.0, -2.0]), np.ones(2)
+    value, ones = np.array([-2.0, -2.0], np.float32), np.ones(2)
     end, _, pivot, replaced = factorised(PressureSystem(row, column, value, ones, ones))
     assert end.tolist() == [0, 2]
     assert replaced == 1

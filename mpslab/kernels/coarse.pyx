@@ -6,7 +6,7 @@ kept in compressed rows and Z^T A Z as a band: band[g, half + h - g] couples g t
 from libc.math cimport sqrt
 
 
-def by_group(const int[::1] row, const int[::1] column, const double[::1] value,
+def by_group(const int[::1] row, const int[::1] column, const float[::1] value,
              const double[::1] diagonal, const int[::1] group, Py_ssize_t begin, Py_ssize_t end,
              int[::1] place, int[::1] start, int[::1] member, double[::1] entry):
     """A Z in the rows from begin to end: the couplings of each row, summed over the groups.

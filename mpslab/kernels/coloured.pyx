@@ -6,7 +6,7 @@ only to its left, and a black row has both red neighbours there, and a part of i
 """
 
 
-def split(const int[::1] row, const int[::1] column, const double[::1] value,
+def split(const int[::1] row, const int[::1] column, const float[::1] value,
           const int[::1] slab, int[::1] lower, int[::1] middle, int[::1] left, double[::1] entry):
     """Entries to the left of the diagonal, those of red neighbours first.
 

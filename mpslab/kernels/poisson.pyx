@@ -8,13 +8,14 @@ cdef enum:
 
 def assemble(const double[:, ::1] position, const signed char[::1] kind, const int[::1] indptr,
              const int[::1] indices, const int[::1] rows, const int[::1] unknown, stencil,
-             pair_terms, double scale, int[::1] row, int[::1] column, double[::1] value,
+             pair_terms, double scale, int[::1] row, int[::1] column, float[::1] value,
              double[::1] diagonal, double[::1] excess):
     """Rows of  -scale <lap p>  for the particles `rows`; `unknown` is their number (others: -1).
 
     Off-diagonal entries are -scale L(r_ij); the diagonal is the sum of scale L(r_ij) over all
     neighbours that carry a pressure, so that free-surface particles act as p = 0 and walls as
-    dp/dn = 0.  `excess` is what a diagonal has above its row: the pull of the free surface.
+    dp/dn = 0.  Entries are rounded to single precision, half of what a product has to read, before they
+    are summed: rows still add up to nothing.  `excess` is what a diagonal has above its row: the pull of the free surface.
 
     row : (m + 1,) out; column, value : (entries,) out, long enough; diagonal, excess : (m,) out
     """
@@ -40,7 +41,7 @@ def assemble(const double[:, ::1] position, const signed char[::1] kind, const i
                                  position[j, 2] - position[i, 2], floor),
                         radius, one, inverse, cubic)
                 for k in range(begin, end):
-                    j, a = indices[k], pair[k - begin]
+                    j, a = indices[k], <float>pair[k - begin]
                     if a == 0.0 or not has_pressure(kind[j]):
                         continue
                     total += a
@@ -48,7 +49,7 @@ def assemble(const double[:, ::1] position, const signed char[::1] kind, const i
                         free += a
                     else:
                         column[entry] = unknown[j]
-                        value[entry] = -a
+                        value[entry] = <float>-a
                         entry += 1
             diagonal[m] = total
             excess[m] = free

@@ -1,7 +1,7 @@
 """Sparse rows: product, incomplete Cholesky factor, substitution."""
 
 
-def multiply(const int[::1] row, const int[::1] column, const double[::1] value,
+def multiply(const int[::1] row, const int[::1] column, const float[::1] value,
              const double[::1] diagonal, const double[::1] x, double[::1] out,
              Py_ssize_t begin=0, Py_ssize_t end=-1):
     """out = A x in the rows from begin to end (-1: all); A is symmetric.
@@ -70,7 +70,7 @@ def lower_ends(const int[::1] row, const int[::1] column, int[::1] end):
             end[i] = k
 
 
-def factorise(const int[::1] row, const int[::1] column, const double[::1] value,
+def factorise(const int[::1] row, const int[::1] column, const float[::1] value,
               const double[::1] diagonal, const int[::1] end, double[::1] factor,
               double[::1] pivot, double[::1] work):
     """Incomplete Cholesky factor without fill, A ~ (I + L) D (I + L)^T.
