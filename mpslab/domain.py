@@ -125,13 +125,14 @@ class Domain:
         leave = [np.flatnonzero(owner == r) if r != self.rank else [] for r in range(self.size)]
         come = self._exchange(arrays, leave)
         self.migrated += sum(len(c[0]) for c in come)
-        arrays, own = _added(arrays, np.flatnonzero(owner == self.rank), come)
-        slab = self._slab_of(arrays)[own]
-        send = [[]] * self.size
+        stay = owner == self.rank
+        if not stay.all():
+            arrays = [a[stay] for a in arrays]
+        arrays = _merged(arrays, come)
+        slab, send = self._slab_of(arrays), [[]] * self.size
         for r in self._beside():
-            send[r] = own[self._seen_by(r, slab)]
-        arrays, held = _added(arrays, own, self._exchange(arrays, send))
-        arrays = _by_gid(arrays, held)
+            send[r] = np.flatnonzero(self._seen_by(r, slab))
+        arrays = _merged(arrays, self._exchange(arrays, send))
         self._find_halo(self._slab_of(arrays))
         return arrays
 
@@ -253,7 +254,7 @@ class Domain:
         arrays = arrays_of(particles)
         mine = np.arange(len(particles))
         come = self._exchange(arrays, [mine if self.rank else [], *[[]] * (self.size - 1)])
-        return ParticleSet(*_by_gid(*_added(arrays, mine, come))) if self.rank == 0 else None
+        return ParticleSet(*_merged(arrays, come)) if self.rank == 0 else None
 
 
 POSITION = [f.name for f in fields(ParticleSet)].index("position")
@@ -264,17 +265,21 @@ def arrays_of(particles):
     return [getattr(particles, f.name) for f in fields(particles)]
 
 
-def _added(arrays, rows, come):
-    """Arrays with what came put behind, and the rows with those of what came."""
+def _merged(arrays, come):
+    """Arrays in the order of the first one, gid, with what came put in its place."""
     if not come:
-        return arrays, rows
-    count = sum(len(c[0]) for c in come)
-    new = np.arange(len(arrays[0]), len(arrays[0]) + count)
-    together = [np.concatenate(column) for column in zip(arrays, *come, strict=True)]
-    return together, np.concatenate([rows, new])
+        return arrays
+    new = [np.concatenate(column) for column in zip(*come, strict=True)]
+    order = np.argsort(new[0])
+    places = np.searchsorted(arrays[0], new[0][order]) + np.arange(len(order))
+    old = np.ones(len(arrays[0]) + len(order), bool)
+    old[places] = False
+    old = np.flatnonzero(old)
+    return [_put(a, old, n[order], places) for a, n in zip(arrays, new, strict=True)]
 
 
-def _by_gid(arrays, rows):
-    """These rows of the arrays, sorted by the first array: gid."""
-    order = rows[np.argsort(arrays[0][rows], kind="stable")]
-    return [a[order] for a in arrays]
+def _put(first, places, second, others):
+    """An array of the rows of two, each at its places."""
+    both = np.empty((len(first) + len(second), *first.shape[1:]), first.dtype)
+    both[places], both[others] = first, second
+    return both

@@ -8,6 +8,7 @@ from mpslab import checkpoint, diagnostics, geometry, initial, timestep
 from mpslab.cases import dumps, load_case
 from mpslab.communicator import on_root
 from mpslab.domain import world
+from mpslab.memory import keep_freed
 from mpslab.output import RunFolder
 from mpslab.particles import ParticleSet
 from mpslab.piston import Piston, make_paddle
@@ -87,6 +88,7 @@ class Simulation:
         self.stop_requested = False
         self.outcome, self.reason = "running", None
         self._flow = flow
+        keep_freed()
         self._record = Record(case, flow, folder)
         self._rebalancer = Rebalancer(flow.domain, case.parallel.balance)
 
