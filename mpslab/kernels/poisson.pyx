@@ -14,8 +14,9 @@ def assemble(const double[:, ::1] position, const signed char[::1] kind, const i
 
     Off-diagonal entries are -scale L(r_ij); the diagonal is the sum of scale L(r_ij) over all
     neighbours that carry a pressure, so that free-surface particles act as p = 0 and walls as
-    dp/dn = 0.  Entries are rounded to single precision, half of what a product has to read, before they
-    are summed: rows still add up to nothing.  `excess` is what a diagonal has above its row: the pull of the free surface.
+    dp/dn = 0.  Entries are rounded to single precision, half of what a product has to read, before
+    they are summed: rows still add up to nothing.  `excess` is what a diagonal has above its row:
+    the pull of the free surface.
 
     row : (m + 1,) out; column, value : (entries,) out, long enough; diagonal, excess : (m,) out
     """
