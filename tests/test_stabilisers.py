@@ -130,11 +130,22 @@ def test_momentum_is_conserved_between_fluid_particles(name, dim):
 @pytest.mark.parametrize(("distance", "keep"), [(0.3, 0.9), (0.6, 0.8), (0.89, 0.9)])
 def test_ds_takes_a_head_on_pair_apart_to_its_distance(distance, keep):
     particles = pair(distance)
-    move, change = apply("ds", particles, before=pair(1.0).position, ds_distance=keep)
+    move, _ = apply("ds", particles, before=pair(1.0).position, ds_distance=keep)
     apart = np.linalg.norm(particles.position[1] - particles.position[0])
     assert apart == pytest.approx(keep, rel=1e-13)
     np.testing.assert_allclose(move[0], -move[1], rtol=1e-13)
-    np.testing.assert_allclose(change, move / DT, rtol=1e-13)
+
+
+@pytest.mark.parametrize(("speed", "taken"), [(-1.0, 0.0), (0.0, 0.0), (0.5, 0.5), (1.7, 1.0)])
+def test_ds_takes_the_approach_that_led_to_an_overlap_and_no_more(speed, taken):
+    """Speeds in those that would have led to the overlap of 0.3 within the step."""
+    particles, most = pair(0.6), 0.3 / DT
+    along = particles.position[1] - particles.position[0]
+    along /= np.linalg.norm(along)
+    particles.velocity[:] = 0.5 * speed * most * np.array([along, -along])
+    _, change = apply("ds", particles, before=pair(1.0).position, ds_distance=0.9)
+    expected = 0.5 * taken * most * np.array([-along, along])
+    np.testing.assert_allclose(change, expected, rtol=1e-12, atol=1e-12 * most)
 
 
 def test_ds_takes_a_glancing_pair_apart_along_its_old_direction():

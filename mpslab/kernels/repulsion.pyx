@@ -59,22 +59,28 @@ def shifting(const double[:, ::1] position, const signed char[::1] kind,
 
 
 def overlap(const double[:, ::1] position, const double[:, ::1] before,
-            const signed char[::1] kind, const int[::1] indptr, const int[::1] indices,
-            stencil, double closest, double[:, ::1] out):
-    """Displacement that takes pairs closer than `closest` apart (after Tsuruta et al. 2013) [m].
+            const double[:, ::1] velocity, const signed char[::1] kind, const int[::1] indptr,
+            const int[::1] indices, stencil, double closest, double dt, double[:, ::1] move,
+            double[:, ::1] change):
+    """Displacement that takes pairs closer than `closest` apart (after Tsuruta et al. 2013) [m],
+    and the change of velocity that goes with it [m/s].
 
     dr_i = -s (sqrt(closest^2 - r_perp^2) - r_par) e, along the direction e that the pair had
-    before the pressure moved it; s = 1/2 between fluid particles, 1 against a wall.
+    before the pressure moved it; s = 1/2 between fluid particles, 1 against a wall.  The velocity
+    changes by dr_i/dt, but by no more than takes the pair's approach away: parting those that
+    something else has pushed together must not make energy.
     """
     cdef double width = stencil.width, floor = stencil.floor
-    cdef double dx, dy, dz, ex, ey, ez, r, rr, par, along, push, sx, sy, sz
+    cdef double dx, dy, dz, ex, ey, ez, r, rr, par, along, push, approach, share
+    cdef double sx, sy, sz, ux, uy, uz
     cdef Py_ssize_t i, k, j
     with nogil:
         for i in range(indptr.shape[0] - 1):
-            out[i, 0] = out[i, 1] = out[i, 2] = 0.0
+            move[i, 0] = move[i, 1] = move[i, 2] = 0.0
+            change[i, 0] = change[i, 1] = change[i, 2] = 0.0
             if kind[i] != FLUID:
                 continue
-            sx = sy = sz = 0.0
+            sx = sy = sz = ux = uy = uz = 0.0
             for k in range(indptr[i], indptr[i + 1]):
                 j = indices[k]
                 dx = position[j, 0] - position[i, 0]
@@ -95,13 +101,23 @@ def overlap(const double[:, ::1] position, const double[:, ::1] before,
                 push = sqrt(along if along > 0.0 else 0.0) - par
                 if push <= 0.0:
                     continue
-                push *= 0.5 if kind[j] == FLUID else 1.0
-                sx -= push * ex
-                sy -= push * ey
-                sz -= push * ez
-            out[i, 0] = sx
-            out[i, 1] = sy
-            out[i, 2] = sz
+                approach = ((velocity[i, 0] - velocity[j, 0]) * ex
+                            + (velocity[i, 1] - velocity[j, 1]) * ey
+                            + (velocity[i, 2] - velocity[j, 2]) * ez)
+                approach = min(max(approach, 0.0), push / dt)
+                share = 0.5 if kind[j] == FLUID else 1.0
+                sx -= share * push * ex
+                sy -= share * push * ey
+                sz -= share * push * ez
+                ux -= share * approach * ex
+                uy -= share * approach * ey
+                uz -= share * approach * ez
+            move[i, 0] = sx
+            move[i, 1] = sy
+            move[i, 2] = sz
+            change[i, 0] = ux
+            change[i, 1] = uy
+            change[i, 2] = uz
 
 
 def collision(const double[:, ::1] position, const double[:, ::1] velocity,

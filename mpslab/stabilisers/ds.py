@@ -9,12 +9,14 @@ PASSES = 2  # the second parts those whom the first pushed together; a ghost is 
 
 
 def stabilise(particles, before, neighbors, stencil, correction, dt, scheme):
-    """Remove the overlap of pairs below ``ds_distance`` (after Tsuruta et al. 2013)."""
-    move = np.empty_like(particles.position)
+    """Remove the overlap of pairs below ``ds_distance`` (after Tsuruta et al. 2013), and the
+    approach that led to it.
+    """
+    move, change = np.empty_like(particles.position), np.empty_like(particles.velocity)
     for _ in range(PASSES):
         repulsion.overlap(
-            particles.position, before, particles.kind, neighbors.indptr, neighbors.indices,
-            stencil, scheme.ds_distance * stencil.spacing, move,
+            particles.position, before, particles.velocity, particles.kind, neighbors.indptr,
+            neighbors.indices, stencil, scheme.ds_distance * stencil.spacing, dt, move, change,
         )  # fmt: skip
         particles.position += move
-        particles.velocity += move / dt
+        particles.velocity += change
