@@ -139,12 +139,10 @@ def test_ds_takes_a_head_on_pair_apart_to_its_distance(distance, keep):
 @pytest.mark.parametrize(("speed", "taken"), [(-1.0, 0.0), (0.0, 0.0), (0.5, 0.5), (1.7, 1.0)])
 def test_ds_takes_the_approach_that_led_to_an_overlap_and_no_more(speed, taken):
     """Speeds in those that would have led to the overlap of 0.3 within the step."""
-    particles, most = pair(0.6), 0.3 / DT
-    along = particles.position[1] - particles.position[0]
-    along /= np.linalg.norm(along)
-    particles.velocity[:] = 0.5 * speed * most * np.array([along, -along])
+    most = 0.3 / DT
+    particles = pair(0.6, speed=0.5 * speed * most)
     _, change = apply("ds", particles, before=pair(1.0).position, ds_distance=0.9)
-    expected = 0.5 * taken * most * np.array([-along, along])
+    expected = -pair(0.6, speed=0.5 * taken * most).velocity
     np.testing.assert_allclose(change, expected, rtol=1e-12, atol=1e-12 * most)
 
 
