@@ -125,10 +125,7 @@ class Domain:
         leave = [np.flatnonzero(owner == r) if r != self.rank else [] for r in range(self.size)]
         come = self._exchange(arrays, leave)
         self.migrated += sum(len(c[0]) for c in come)
-        stay = owner == self.rank
-        if not stay.all():
-            arrays = [a[stay] for a in arrays]
-        arrays = _merged(arrays, come)
+        arrays = _merged(arrays, come, np.flatnonzero(owner == self.rank))
         slab, send = self._slab_of(arrays), [[]] * self.size
         for r in self._beside():
             send[r] = np.flatnonzero(self._seen_by(r, slab))
@@ -173,7 +170,7 @@ class Domain:
                 if len(rows[r]):
                     packed = np.empty(len(rows[r]), kind)
                     for k, a in enumerate(arrays):
-                        packed[str(k)] = a[rows[r]]
+                        packed[str(k)] = a.take(rows[r], 0)
                     sent.append(packed)
                     requests.append(self.comm.Isend(packed.view(np.uint8), r))
             self._wait(requests)
@@ -187,7 +184,7 @@ class Domain:
                 for a in arrays:
                     came.append((a, take, np.empty((len(take), *a.shape[1:]), a.dtype)))
                     requests.append(self.comm.Irecv(came[-1][2], r))
-                    sent.append(a[give])
+                    sent.append(a.take(give, 0))
                     requests.append(self.comm.Isend(sent[-1], r))
             self._wait(requests)
             for a, take, values in came:
@@ -265,21 +262,16 @@ def arrays_of(particles):
     return [getattr(particles, f.name) for f in fields(particles)]
 
 
-def _merged(arrays, come):
-    """Arrays in the order of the first one, gid, with what came put in its place."""
-    if not come:
+def _merged(arrays, come, stay=None):
+    """Arrays in the order of the first one, gid: the rows that stay (all unless given), and what
+    came put in its place.
+    """
+    count = len(arrays[0])
+    stay = np.arange(count) if stay is None else stay
+    if not come and len(stay) == count:
         return arrays
-    new = [np.concatenate(column) for column in zip(*come, strict=True)]
-    order = np.argsort(new[0])
-    places = np.searchsorted(arrays[0], new[0][order]) + np.arange(len(order))
-    old = np.ones(len(arrays[0]) + len(order), bool)
-    old[places] = False
-    old = np.flatnonzero(old)
-    return [_put(a, old, n[order], places) for a, n in zip(arrays, new, strict=True)]
-
-
-def _put(first, places, second, others):
-    """An array of the rows of two, each at its places."""
-    both = np.empty((len(first) + len(second), *first.shape[1:]), first.dtype)
-    both[places], both[others] = first, second
-    return both
+    both = [np.concatenate(parts) for parts in zip(arrays, *come, strict=True)]
+    gid = both[0]
+    new = count + np.argsort(gid[count:])
+    rows = np.insert(stay, np.searchsorted(gid[stay], gid[new]), new)
+    return [a.take(rows, 0) for a in both]

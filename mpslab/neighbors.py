@@ -80,7 +80,7 @@ class NeighborList:
         return start, member
 
     def _search(self, position, member, active, start, count, radius, width):
-        packed = np.ascontiguousarray(position[member].T)
+        packed = np.ascontiguousarray(position.take(member, 0).T)
         first = np.empty(len(member) + 1, np.int32)
         scratch = _most_candidates(start, count)
         nearby, block = np.empty(scratch, np.int32), np.empty((4, scratch))

@@ -13,6 +13,11 @@ def carries_pressure(kind):
     return (kind == FLUID) | (kind == WALL) | (kind == PISTON)
 
 
+def on_axes(mask):
+    """A mask of particles for their vectors: (n,) bool -> (n, 3) bool."""
+    return np.repeat(mask, 3).reshape(-1, 3)
+
+
 @dataclass
 class ParticleSet:
     """Particles as a structure of arrays, in the order of their gid.
@@ -58,9 +63,10 @@ class ParticleSet:
         """Mask of the particles with the motion of the wavemaker, (n,) bool."""
         return (self.kind == PISTON) | (self.kind == PISTON_DUMMY)
 
-    def take(self, keep):
+    def take(self, rows):
         """The particles of a mask or index, as a new set."""
-        return ParticleSet(**{f.name: getattr(self, f.name)[keep] for f in fields(self)})
+        rows = np.flatnonzero(rows) if np.asarray(rows).dtype == bool else rows
+        return ParticleSet(**{f.name: getattr(self, f.name).take(rows, 0) for f in fields(self)})
 
 
 def make_particles(position, kind):

@@ -58,7 +58,7 @@ def assemble(
     if surface_pull is not None:
         diagonal += surface_pull[rows]
         excess += surface_pull[rows]
-    cell = cells(particles.position[rows, 1:], slabs.WIDTH * stencil.radius)
+    cell = cells(particles.position.take(rows, 0)[:, 1:], slabs.WIDTH * stencil.radius)
     system = PressureSystem(row, column, value, diagonal, source[rows], first, domain, cell)
     system.refresh(diagonal)
     _hold_cut_off_rows(system, excess)

@@ -9,7 +9,7 @@ from mpslab import correction, geometry, plugins, pressure, surface, walls
 from mpslab.domain import Domain
 from mpslab.kernels import density, viscosity
 from mpslab.neighbors import NeighborList
-from mpslab.particles import ParticleSet
+from mpslab.particles import ParticleSet, on_axes
 from mpslab.piston import Piston
 from mpslab.slabs import make_slabs
 from mpslab.stencil import Stencil, make_stencil
@@ -153,10 +153,9 @@ def _predict(flow, dt):
     """
     particles = flow.particles
     flow.piston.push(particles, flow.time, dt)
-    fluid = particles.fluid
-    particles.velocity[fluid, 2] -= flow.case.fluid.gravity * dt
+    particles.velocity[:, 2] -= flow.case.fluid.gravity * dt * particles.fluid
     if flow.case.scheme.projection == "predicted":
-        particles.position[fluid] += dt * particles.velocity[fluid]
+        particles.position += dt * particles.velocity * on_axes(particles.fluid)
         flow.piston.move(particles, flow.time + dt)
 
 
@@ -244,8 +243,8 @@ def _correct(flow, start, dt):
         flow.stencil, flow.correction, change,
     )  # fmt: skip
     particles.velocity -= (dt / flow.case.fluid.density) * change
-    fluid = particles.fluid
-    particles.position[fluid] = start[fluid] + dt * particles.velocity[fluid]
+    moved = start + dt * particles.velocity
+    np.copyto(particles.position, moved, where=on_axes(particles.fluid))
     if flow.case.scheme.projection == "start":
         flow.piston.move(particles, flow.time + dt)
     _stabilise(flow, "corrected", before, dt)

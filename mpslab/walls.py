@@ -9,7 +9,7 @@ water on one side only, and give the bed half the pressure difference of a layer
 import numpy as np
 
 from mpslab.kernels import walls as kernels
-from mpslab.particles import DUMMY, FLUID, WALL
+from mpslab.particles import DUMMY, FLUID, WALL, on_axes
 
 
 def pull(particles, before, gravity, dt):
@@ -29,8 +29,7 @@ def pull(particles, before, gravity, dt):
 
 def predicted_velocity(particles, pull_, dt):
     """u* of all particles: solids, too, before the pressure acts, u* = u_wall + (g - a) dt."""
-    solid = (particles.kind != FLUID)[:, None]
-    return particles.velocity + np.where(solid, dt * pull_, 0.0)
+    return particles.velocity + dt * pull_ * on_axes(particles.kind != FLUID)
 
 
 def outside_system(particles):
