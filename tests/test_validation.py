@@ -40,6 +40,7 @@ def test_known_misses_name_criteria_that_there_are():
         criteria = {criterion.id: criterion for criterion in suite.load(name).criteria}
         for id_, entry in entries.items():
             assert set(entry["suites"]) <= set(criteria[id_].suites)
+            assert not criteria[id_].met(entry["value"])
             assert entry["cause"]
 
 
@@ -61,6 +62,7 @@ def test_a_value_is_held_against_its_band(value, low, high, met):
 MADE = suite.ValidationCase(
     "made", "Made", "Is it?", 1, "", (), (Criterion("a", "A", "because.", "", 0.0, 1.0),)
 )
+NOISY = replace(MADE, criteria=(replace(MADE.criteria[0], noise=0.1),))
 
 
 def test_pictures_of_a_case_go_beside_its_file(tmp_path, monkeypatch):
@@ -74,8 +76,8 @@ def test_pictures_of_a_case_go_beside_its_file(tmp_path, monkeypatch):
     assert imread(tmp_path / figure["picture"]).size
 
 
-def judged(value, known=None):
-    metrics = judge.judge(MADE, "quick", {"a": value}, known or {})
+def judged(value, known=None, case=MADE):
+    metrics = judge.judge(case, "quick", {"a": value}, known or {})
     return [{"case": "made", "metrics": metrics}]
 
 
@@ -97,21 +99,72 @@ def test_a_known_miss_that_has_healed_is_a_surprise():
 
 
 def test_within_the_noise_of_an_edge_there_is_no_surprise():
-    case = replace(MADE, criteria=(replace(MADE.criteria[0], noise=0.1),))
     for value, surprises in ((1.05, 0), (0.95, 0), (1.2, 1)):
-        metrics = judge.judge(case, "quick", {"a": value}, {})
-        found = judge.unexpected([{"case": "made", "metrics": metrics}])
+        assert len(judge.unexpected(judged(value, case=NOISY))) == surprises, value
+
+
+def test_a_known_miss_that_has_become_worse_is_a_surprise():
+    for value, surprises in ((2.05, 0), (1.5, 0), (2.2, 1), (np.nan, 1)):
+        found = judge.unexpected(judged(value, KNOWN, NOISY))
         assert len(found) == surprises, value
+    assert (
+        "missed by more (2.2) than the known misses say (2.0)"
+        in judge.unexpected(judged(2.2, KNOWN, NOISY))[0]
+    )
 
 
 def test_what_was_measured_must_have_a_criterion_and_the_other_way_round():
     with pytest.raises(ValueError, match=r"measured .* but criteria"):
-        judge.judge(MADE, "quick", {"b": 1.0}, {})
+        judge.check(MADE, "quick", {"b": 1.0})
+
+
+def test_a_comparison_that_measures_something_else_is_a_miss(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(suite.ValidationCase, "compare", lambda self, runs: Comparison())
+    found, _ = result.make(MADE, "quick", [], {})
+    assert not found["metrics"][0]["passed"]
+    assert "The comparison failed" in found["notes"][0]
+    assert "measured []" in capsys.readouterr().err
+
+
+def test_a_run_that_left_no_files_is_a_miss(tmp_path):
+    lost = Outcome(Task("made", plan("tiny"), tmp_path / "nothing"), "failed", "killed")
+    found, _ = result.make(MADE, "quick", [lost], {})
+    assert not found["metrics"][0]["passed"]
+    assert found["runs"][0]["steps"] == 0
+    assert "Run tiny failed: killed" in found["notes"]
 
 
 def test_an_order_of_convergence_comes_back():
     spacing = np.array([4.0, 2.0, 1.0])
     assert np.isclose(Comparison().converge("error", spacing, -0.1 * spacing**1.5), 1.5)
+
+
+def test_an_order_needs_two_errors_that_can_be_told_from_zero():
+    comparison = Comparison()
+    assert np.isclose(comparison.converge("error", [4.0, 2.0, 1.0], [0.4, np.nan, 0.1]), 1.0)
+    assert np.isnan(comparison.converge("error", [4.0, 2.0], [0.4, 0.0]))
+    assert comparison.convergence[1]["order"] is None
+    json.dumps(comparison.convergence, allow_nan=False)
+
+
+def test_errors_of_a_curve_that_is_late_and_high_come_back():
+    x = np.linspace(0.0, 10.0, 2001)
+    at = np.linspace(1.0, 9.0, 60)
+    comparison = Comparison()
+    row = comparison.hold("a hump", x, 0.1 + np.exp(-((x - 5.2) ** 2)), at,
+                          np.exp(-((at - 5.0) ** 2)))  # fmt: skip
+    assert np.isclose(row["bias"], 0.1, atol=0.002)
+    assert np.isclose(row["late by"], 0.2, atol=0.01)
+    assert np.isclose(row["peak / measured"], 1.1, atol=0.01)
+    assert row["rms error"] > row["bias"]
+    (table,) = comparison.all_tables
+    assert table["rows"] == [list(row.values())]
+
+
+def test_a_table_holds_no_number_that_json_does_not_know():
+    comparison = Comparison()
+    comparison.table("A", ["a", "b"], [["text", np.nan], [np.int64(3), np.inf]])
+    assert comparison.tables[0]["rows"] == [["text", None], [3, None]]
 
 
 def test_a_series_leaves_out_what_is_not_a_number_and_stays_short():
@@ -218,7 +271,8 @@ def test_the_command_lists_the_cases(capsys):
 @pytest.mark.parametrize(
     "arguments, message",
     [(["nonsense"], "case = 'nonsense': must be one of"), (["--ranks", "0"], "--ranks 0: must be"),
-     (["--jobs", "-1"], "--jobs -1: must be")],
+     (["--jobs", "-1"], "--jobs -1: must be"),
+     (["bar"], "case bar: not in the quick suite; add --full")],
 )  # fmt: skip
 def test_bad_input_is_refused_in_one_line(capsys, arguments, message):
     assert command.main(arguments) == 2

@@ -48,7 +48,8 @@ def main(arguments=None):
         return BAD_INPUT
     if options.list:
         for case in cases:
-            print(f"{case.name:<18} {case.title}")
+            where = "quick, full" if case.in_suite("quick") else "full"
+            print(f"{case.name:<18} {where:<12} {case.title}")
         return DONE
     out = options.out or Path("runs") / "validation" / options.suite
     out.mkdir(parents=True, exist_ok=True)
@@ -68,8 +69,11 @@ def _chosen(options):
         least, value = (1 if name == "ranks" else 0), getattr(options, name)
         if value < least:
             raise ValueError(f"--{name} {value}: must be a whole number >= {least}")
-    cases = [suite.load(name) for name in options.case] or suite.load_all()
-    return [case for case in cases if options.list or case.in_suite(options.suite)]
+    cases = [suite.load(name) for name in options.case]
+    for case in cases:
+        if not case.in_suite(options.suite) and not options.list:
+            raise ValueError(f"case {case.name}: not in the {options.suite} suite; add --full")
+    return cases or [c for c in suite.load_all() if options.list or c.in_suite(options.suite)]
 
 
 def run(cases, which, out, work):

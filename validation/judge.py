@@ -36,18 +36,15 @@ def judge(case, suite, measured, known):
     Returns
     -------
     list of dict
-
-    Raises
-    ------
-    ValueError
-        If something was measured that has no criterion, or a criterion was not measured.
     """
-    criteria = {criterion.id: criterion for criterion in case.criteria_of(suite)}
-    if set(measured) != set(criteria):
-        raise ValueError(
-            f"{case.name}: measured {sorted(measured)}, but criteria.toml has {sorted(criteria)}"
-        )
-    return [_metric(case, suite, c, measured[c.id], known) for c in criteria.values()]
+    return [_metric(case, suite, c, measured[c.id], known) for c in case.criteria_of(suite)]
+
+
+def check(case, suite, measured):
+    """Raise ValueError if something was measured that has no criterion, or the other way round."""
+    criteria = {criterion.id for criterion in case.criteria_of(suite)}
+    if set(measured) != criteria:
+        raise ValueError(f"measured {sorted(measured)}, but criteria.toml has {sorted(criteria)}")
 
 
 def _metric(case, suite, criterion, value, known):
@@ -61,7 +58,9 @@ def _metric(case, suite, criterion, value, known):
         "passed": bool(criterion.met(value)),
         "close": bool(criterion.at_an_edge(value)),
         "reason": criterion.reason,
+        "noise": criterion.noise,
         "known": cause_of(known, case.name, criterion.id, suite),
+        "listed": known.get(case.name, {}).get(criterion.id, {}).get("value"),
     }
 
 
@@ -73,16 +72,30 @@ def misses(results):
 def unexpected(results):
     """Lines that say where the results differ from the list of known misses; none if nowhere.
 
-    A value within the noise of an edge of its band surprises nobody on either side.
+    A value within the noise of an edge of its band surprises nobody on either side; a known miss
+    that is farther off than was listed, by more than the noise, does.
     """
-    lines = []
-    for result in results:
-        for metric in result["metrics"]:
-            if metric["close"]:
-                continue
-            name = f"{result['case']}.{metric['id']}"
-            if not metric["passed"] and metric["known"] is None:
-                lines.append(f"{name} is missed ({metric['value']}) and not among the known misses")
-            if metric["passed"] and metric["known"] is not None:
-                lines.append(f"{name} is met ({metric['value']}): take it off the known misses")
-    return lines
+    every = ((f"{r['case']}.{m['id']}", m) for r in results for m in r["metrics"])
+    lines = [(name, _surprise(metric)) for name, metric in every]
+    return [f"{name} is {line}" for name, line in lines if line]
+
+
+def _surprise(metric):
+    """Where a metric differs from the list of known misses, in words; None where it does not."""
+    value, known = metric["value"], metric["known"] is not None
+    if metric["passed"]:
+        heals = known and not metric["close"]
+        return f"met ({value}): take it off the known misses" if heals else None
+    if not known:
+        return None if metric["close"] else f"missed ({value}) and not among the known misses"
+    allowed = _beyond(metric, metric["listed"]) + metric["noise"]
+    if value is None or _beyond(metric, value) > allowed:
+        return f"missed by more ({value}) than the known misses say ({metric['listed']})"
+    return None
+
+
+def _beyond(metric, value):
+    """How far a value lies outside the band."""
+    low = value if metric["low"] is None else metric["low"]
+    high = value if metric["high"] is None else metric["high"]
+    return max(low - value, value - high, 0.0)

@@ -17,13 +17,17 @@ class Run:
     Attributes
     ----------
     folder : Path
-    case : dict
-        The resolved case, tables of keys.
+
+    A run that failed before it wrote anything has no steps and an empty record.
     """
 
     def __init__(self, folder):
         self.folder = Path(folder)
-        self.case = read_case(self.folder)
+
+    @cached_property
+    def case(self):
+        """The resolved case, a dict of tables; ValueError if there is none."""
+        return read_case(self.folder)
 
     @property
     def spacing(self):
@@ -50,10 +54,11 @@ class Run:
         """Columns of ``steps.csv`` by their headings."""
         return read_table(self.folder / "steps.csv")
 
-    @property
+    @cached_property
     def record(self):
         """``run.json``, a dict."""
-        return json.loads((self.folder / "run.json").read_text(encoding="utf-8"))
+        path = self.folder / "run.json"
+        return json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
 
     def gauge(self, name):
         """Time [s] and water level [m] of a gauge, (n,) each."""
@@ -74,6 +79,15 @@ class Run:
         for time, frame in self.frames():
             wet = frame["kind"] == FLUID
             yield time, frame["position"][wet].astype(float), frame["velocity"][wet].astype(float)
+
+    def momentum(self):
+        """Momentum of the water along x in the first and in the last frame [N s]."""
+        times = vtkhdf.read_times(self.folder / "particles.vtkhdf")
+        flat = self.case["tank"]["width"] == 0.0
+        mass = self.density * self.spacing ** (2 if flat else 3)
+        ends = (vtkhdf.read_frame(self.folder / "particles.vtkhdf", k) for k in (0, len(times) - 1))
+        return [mass * float(frame["velocity"][frame["kind"] == FLUID, 0].sum(dtype=float))
+                for frame in ends]  # fmt: skip
 
     def frame_at(self, time):
         """The frame next to a time [s]: its time and arrays."""

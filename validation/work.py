@@ -10,7 +10,6 @@ import sys
 import threading
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
 import mpslab
@@ -157,7 +156,6 @@ def fingerprint(case):
     return hashlib.sha256((_sources() + dumps(case)).encode()).hexdigest()
 
 
-@cache
 def _sources():
     folder = Path(mpslab.__file__).parent
     files = sorted(path for path in folder.rglob("*") if path.suffix in SOURCES)
