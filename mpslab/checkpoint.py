@@ -1,5 +1,6 @@
 """Checkpoints: everything that a restart needs, to the byte."""
 
+import io
 from pathlib import Path
 
 import h5py
@@ -30,7 +31,9 @@ def write(path, particles, state):
         If HDF5 cannot hold a value of ``state``.
     """
     order = np.argsort(particles.gid, kind="stable")
-    with replacing(path) as draft, h5py.File(draft, "w") as file:
+    # In memory first: HDF5 does not survive a disk that is full.
+    content = io.BytesIO()
+    with h5py.File(content, "w") as file:
         file.attrs["format"] = FORMAT
         file.attrs["version"] = VERSION
         for name in FIELDS:
@@ -38,6 +41,8 @@ def write(path, particles, state):
         group = file.create_group("state")
         for key, value in state.items():
             _store(group, key, value)
+    with replacing(path) as draft:
+        draft.write_bytes(content.getbuffer())
 
 
 def _store(group, key, value):

@@ -21,6 +21,10 @@ class Alone:
         """What rank 0 gives."""
         return item
 
+    def Dup(self):
+        """Another communicator of the same ranks."""
+        return Alone()
+
 
 def meet(comm):
     """Wait until all ranks are here.
@@ -39,6 +43,24 @@ def finish(requests):
         while not request.Test():
             spins += 1
             os.sched_yield() if spins < PATIENCE else time.sleep(PAUSE)
+
+
+def all_here(comm, patience=5.0):
+    """Whether all ranks come to this place within so many seconds.
+
+    Parameters
+    ----------
+    comm : communicator
+        One that serves for nothing else: the other ranks may be waiting for something else.
+    """
+    if comm.size == 1:
+        return True
+    request, end = comm.Ibarrier(), time.monotonic() + patience
+    while not request.Test():
+        if time.monotonic() > end:
+            return False
+        time.sleep(PAUSE)
+    return True
 
 
 def on_root(comm, act):

@@ -48,7 +48,10 @@ def conjugate_gradient(
         system.multiply(p, q)
         if deflate:
             deflation.project(q)
-        alpha = rho / dot(p, q)
+        curvature = dot(p, q)
+        if rho == 0.0 or curvature == 0.0:
+            break  # no direction is left to go: the run stops, for it did not converge
+        alpha = rho / curvature
         axpy(alpha, p, x)
         axpy(-alpha, q, r)
         residual = math.sqrt(dot(r, r)) / b_norm

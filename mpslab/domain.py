@@ -23,9 +23,14 @@ from mpslab.stopwatch import COMMUNICATION, WAITING, WORK, Stopwatch
 LAUNCHED = ("PMI_SIZE", "PMIX_RANK", "OMPI_COMM_WORLD_SIZE")
 
 
+def launched():
+    """Whether an mpiexec has started this process."""
+    return any(name in os.environ for name in LAUNCHED)
+
+
 def world():
     """The communicator of all ranks: that of MPI under mpiexec, else `Alone`."""
-    if not any(name in os.environ for name in LAUNCHED):
+    if not launched():
         return Alone()
     from mpi4py import MPI
 

@@ -198,8 +198,13 @@ class RunFolder:
         except (OSError, ValueError, KeyError):
             self._resumed = 1
 
-    def open_decomposition(self, last_step=None):
-        """Open ``decomposition.csv``, which a run on several ranks writes."""
+    def open_decomposition(self, last_step, ranks):
+        """Open ``decomposition.csv``, which a run on several ranks writes.
+
+        One that an earlier part of the run has left is cut to the step by a single rank as well.
+        """
+        if ranks == 1 and not (self.path / "decomposition.csv").exists():
+            return
         self._tables["decomposition"] = CsvTable(
             self.path / "decomposition.csv", DECOMPOSITION_COLUMNS.values(), last_step
         )

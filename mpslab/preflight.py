@@ -5,12 +5,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from mpslab import balance, breaking, geometry, obstacles, waves
 from mpslab import bed as beds
-from mpslab import breaking, geometry, obstacles, waves
 from mpslab.cases.checks import warnings
 from mpslab.cases.complete import initial_speed
 from mpslab.particles import KIND_NAMES
 from mpslab.piston import make_paddle
+from mpslab.step import slabs_of, solver_of
 
 # Measured on one core of a 2023 server processor with the recipe "standard".
 SECONDS_PER_PARTICLE_STEP = {2: 2.4e-6, 3: 4.8e-6}
@@ -56,6 +57,13 @@ def preflight(case):
             describe = _regular_wave if case.wavemaker.type in REGULAR else _solitary_wave
             report.sections["Wave"] = describe(case, height, report.warnings)
     return report
+
+
+def check_ranks(case, ranks):
+    """Raise ValueError if a case cannot be shared out among so many ranks."""
+    solver_of(case, ranks)
+    slabs = slabs_of(case, make_paddle(case))
+    balance.cut(case.parallel.balance, np.ones(slabs.count), ranks)
 
 
 def _particles(case, particles):

@@ -61,11 +61,17 @@ class Rebalancer:
         domain = self.domain
         mine = len(particles), domain.migrated - self._migrated, domain.ghosts
         sizes, migrated, ghosts = zip(*domain.from_all(mine), strict=True)
-        work = domain.collect(
-            load(self.method, particles.fluid, domain.slab, domain.slabs.count)
-        )
+
+        def loads(method):
+            return domain.collect(
+                load(method, particles.fluid, domain.slab, domain.slabs.count)
+            )
+
+        # The imbalance is that of the work, whatever a method cuts by.
+        work = loads("optimal")
+        share = loads("centroid") if self.method == "centroid" else work
         before = balance.imbalance(work, domain.cuts)
-        domain.cuts = balance.cut(self.method, work, domain.size)
+        domain.cuts = balance.cut(self.method, share, domain.size)
         self._migrated = domain.migrated
         return {
             "particles": list(sizes),

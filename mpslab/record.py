@@ -43,18 +43,17 @@ class Record:
         time = None if step is None else self.flow.time
         names = [g.name for g in self.case.gauge], [p.name for p in self.case.probe]
         self.folder.open_tables(*names, last_step=step, last_time=time)
-        if self.flow.domain.size > 1:
-            self.folder.open_decomposition(step)
+        self.folder.open_decomposition(step, self.flow.domain.size)
         if step is not None:
             self._cut_frames(time)
         self.frames = vtkhdf.ParticleSeries(self.folder.particles, self.case.output.fields)
 
     def _cut_frames(self, time):
-        """Drop the frames after a time; a file that a kill damaged is set aside."""
+        """Drop the frames after a time; a file that is damaged is set aside."""
         path = self.folder.particles
         try:
             vtkhdf.truncate(path, time)
-        except ValueError as error:
+        except (ValueError, KeyError, RuntimeError) as error:
             path.rename(path.with_suffix(".damaged.vtkhdf"))
             warnings.warn(f"{error}; set aside, the frames begin anew", stacklevel=2)
 

@@ -57,6 +57,7 @@ class Simulation:
         self._record.begin()
         self._record.read_instruments()
         self._record.add_frame()
+        self._record.write_checkpoint(self._state())
 
     @classmethod
     def resume(cls, folder):

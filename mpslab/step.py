@@ -88,15 +88,8 @@ def make_flow(case, particles, piston, width, comm=None):
     dim = 2 if case.tank.width == 0.0 else 3
     stencil = make_stencil(dim, spacing, scheme.effective_radius, width)
     laplacian_stencil = make_stencil(dim, spacing, scheme.laplacian_radius, width)
-    extent = geometry.extent(case, piston.paddle.backmost if piston.paddle else 0.0)
-    slabs = make_slabs(*extent, max(stencil.radius, laplacian_stencil.radius))
-    domain = Domain(slabs, comm)
-    solver = plugins.load("solvers", scheme.solver)
-    if domain.size > 1 and not solver.BY_SLAB:
-        raise ValueError(
-            f'scheme.solver = "{scheme.solver}": runs on one rank only; on {domain.size} ranks '
-            'choose "deflated", "piccg" or "scg"'
-        )
+    domain = Domain(slabs_of(case, piston.paddle), comm)
+    solver = solver_of(case, domain.size)
     return Flow(
         case=case,
         particles=domain.take_part(particles, case.parallel.balance),
@@ -110,6 +103,24 @@ def make_flow(case, particles, piston, width, comm=None):
         pair_terms=plugins.load("laplacians", scheme.laplacian).pair_terms(laplacian_stencil),
         stabilisers=tuple(plugins.load("stabilisers", name) for name in scheme.stabiliser),
     )
+
+
+def slabs_of(case, paddle):
+    """The slabs of the tank of a case with a paddle, None for a fixed wall."""
+    scheme, spacing = case.scheme, case.particles.spacing
+    radius = max(scheme.effective_radius, scheme.laplacian_radius) * spacing
+    return make_slabs(*geometry.extent(case, paddle.backmost if paddle else 0.0), radius)
+
+
+def solver_of(case, ranks):
+    """The solver that a case names; ValueError if it cannot work on so many ranks."""
+    solver = plugins.load("solvers", case.scheme.solver)
+    if ranks > 1 and not solver.BY_SLAB:
+        raise ValueError(
+            f'scheme.solver = "{case.scheme.solver}": runs on one rank only; on {ranks} ranks '
+            'choose "deflated", "piccg" or "scg"'
+        )
+    return solver
 
 
 def advance(flow, dt):

@@ -8,8 +8,10 @@ import traceback
 from pathlib import Path
 
 from mpslab import cases, launch, pictures
-from mpslab.domain import world
-from mpslab.preflight import preflight
+from mpslab.communicator import all_here
+from mpslab.domain import launched, world
+from mpslab.output import RunFolder
+from mpslab.preflight import check_ranks, preflight
 from mpslab.progress import make_progress
 from mpslab.simulation import Simulation
 from mpslab.watch import RunFailed
@@ -37,7 +39,7 @@ def _parser():
     parser.add_argument("--out", metavar="DIR", help="new or empty folder for the results")
     parser.add_argument("--until", type=float, metavar="SECONDS", help="stop at this time")
     parser.add_argument("--resume", metavar="DIR", help="go on with the run in this folder")
-    parser.add_argument("--ranks", type=int, default=0, metavar="N",
+    parser.add_argument("--ranks", type=int, metavar="N",
                         help="share the tank out among N processes")  # fmt: skip
     parser.add_argument("--no-pictures", action="store_true", help="draw no pictures at the end")
     parser.add_argument("--check", action="store_true", help="look at the case, run nothing")
@@ -52,73 +54,94 @@ def main(arguments=None):
     0: done; 2: bad input, nothing done; 3: the run went wrong; 130: stopped by Ctrl-C.
     """
     comm = world()
+    aside = comm.Dup()
+    tell = print if comm.rank == 0 else _silent
+    simulation = None
     try:
-        options = _parser().parse_args(arguments)
-        _start_ranks(options, sys.argv[1:] if arguments is None else arguments, comm)
-        return _dispatch(options, comm)
-    except ValueError as error:
-        if comm.rank == 0:
-            print(f"mpslab: {error}", file=sys.stderr)
-        return BAD_INPUT
+        try:
+            options = _parser().parse_args(arguments)
+            simulation = _prepared(options, arguments, comm, tell)
+        except (ValueError, OSError) as error:
+            if not all_here(aside):
+                raise  # bad input, or a disk that is full, is so for all ranks
+            if isinstance(error, OSError):
+                folder = options.out or options.resume or "runs"
+                tell(f"mpslab: {folder}: cannot be written ({_reason(error)}) before the first "
+                     "step", file=sys.stderr)  # fmt: skip
+                return FAILED
+            tell(f"mpslab: {error}", file=sys.stderr)
+            return BAD_INPUT
+        return _run(simulation, options, tell) if simulation else 0
+    except KeyboardInterrupt:
+        tell("mpslab: stopped", file=sys.stderr)
+        return INTERRUPTED
     except Exception:
         if comm.size == 1:
             raise
         # The other ranks would wait for this one for ever.
         print(f"mpslab: rank {comm.rank} of {comm.size} failed:\n{traceback.format_exc()}"
-              "The last checkpoint is good.", file=sys.stderr, flush=True)  # fmt: skip
+              + "The last checkpoint is good." * (simulation is not None),
+              file=sys.stderr, flush=True)  # fmt: skip
         comm.Abort(FAILED)
 
 
-def _start_ranks(options, arguments, comm):
-    """Take on the shape of mpiexec, with the same arguments, if more ranks are asked for."""
-    if options.ranks < 0:
-        raise ValueError(f"--ranks {options.ranks}: must be a whole number >= 1")
-    if options.ranks in (0, comm.size):
-        return
-    if comm.size > 1:
-        raise ValueError(f"--ranks {options.ranks}: but mpiexec started {comm.size} already")
-    line = launch.command(options.ranks, "-m", "mpslab.tank", *arguments)
-    os.execv(line[0], line)
-
-
-def _dispatch(options, comm):
-    tell = print if comm.rank == 0 else _silent
+def _prepared(options, arguments, comm, tell):
+    """The simulation that is asked for, None if there is nothing to run; ValueError: bad input."""
     if options.list:
         for name in cases.names():
             tell(f"{name:<18} {cases.load_case(name).title}")
-        return 0
+        return None
     if options.show:
         tell(cases.text(options.show), end="")
-        return 0
-    if options.resume:
-        return _run(_resumed(options), options, tell)
-    changes = dict(cases.parse_set(item) for item in options.set)
-    case = cases.load_case(options.case or DEFAULT_CASE, changes)
+        return None
+    case = _case(options)
     _check_until(options.until, case)
-    report = preflight(case)
+    ranks = _ranks(options, comm)
+    check_ranks(case, ranks)
+    report = None if options.resume else preflight(case)
     if options.check:
         tell(f"{case.name}: {case.title}\n{report.text()}")
-        return 0
+        return None
+    if ranks != comm.size:
+        line = sys.argv[1:] if arguments is None else arguments
+        line = launch.command(ranks, "-m", "mpslab.tank", *line)
+        os.execv(line[0], line)
+    if options.resume:
+        return Simulation.resume(options.resume)
     for warning in report.warnings:
         tell(f"Warning: {warning}", file=sys.stderr)
-    out = options.out or comm.bcast(_free_folder(case.name))
-    return _run(Simulation(case, out), options, tell)
+    return Simulation(case, options.out or comm.bcast(_free_folder(case.name)))
 
 
 def _silent(*words, **options):
     """What the ranks but the first say."""
 
 
-def _resumed(options):
+def _case(options):
+    """The case to run, or of the run to go on with."""
+    if not options.resume:
+        changes = dict(cases.parse_set(item) for item in options.set)
+        return cases.load_case(options.case or DEFAULT_CASE, changes)
     for name in ("case", "set", "out", "check"):
         if getattr(options, name):
             raise ValueError(
                 f"--resume {options.resume}: goes on with the case and in the folder of that "
                 f"run; not allowed together with {'CASE' if name == 'case' else '--' + name}"
             )
-    simulation = Simulation.resume(options.resume)
-    _check_until(options.until, simulation.case)
-    return simulation
+    return cases.load_case(RunFolder.reopen(options.resume).case)
+
+
+def _ranks(options, comm):
+    """How many ranks are to run, those that there are unless others are asked for."""
+    asked = comm.size if options.ranks is None else options.ranks
+    if asked < 1:
+        raise ValueError(f"--ranks {asked}: must be a whole number >= 1")
+    if asked != comm.size and launched():
+        raise ValueError(
+            f"--ranks {asked}: but mpiexec has started {comm.size} already (or it is not that of "
+            "the MPI in use); allowed: one or the other"
+        )
+    return asked
 
 
 def _check_until(until, case):
@@ -143,7 +166,7 @@ def _run(simulation, options, tell):
     found = simulation.domain.from_all((len(simulation.particles), os.getpid()))
     sizes, processes = zip(*found, strict=True)
     # When a process is killed, mpiexec says which by its number.
-    numbers = ", ".join(map(str, processes))
+    numbers = ", ".join(f"{rank}: {number}" for rank, number in enumerate(processes))
     ranks = f" on {len(sizes)} ranks (processes {numbers})" if len(sizes) > 1 else ""
     tell(f"{simulation.case.name}: {sum(sizes):,} particles{ranks}, to t = {until:g} s, "
          f"results in {folder}", flush=True)  # fmt: skip
@@ -159,7 +182,7 @@ def _run(simulation, options, tell):
              f"the last good one in {folder / 'checkpoint.h5'}", file=sys.stderr)  # fmt: skip
         return FAILED
     except OSError as error:
-        tell(f"mpslab: run stopped: {folder} cannot be written ({error.strerror}) after step "
+        tell(f"mpslab: run stopped: {folder} cannot be written ({_reason(error)}) after step "
              f"{simulation.step}, t = {simulation.time:.6g} s; the last checkpoint there is good",
              file=sys.stderr)  # fmt: skip
         return FAILED
@@ -167,6 +190,11 @@ def _run(simulation, options, tell):
         for number, handler in earlier.items():
             signal.signal(number, handler)
     return _report(simulation, options, tell)
+
+
+def _reason(error):
+    """What the system says about an OSError, in one line."""
+    return os.strerror(error.errno) if error.errno else " ".join(str(error).split())
 
 
 def _stop_on_signals(simulation):

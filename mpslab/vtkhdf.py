@@ -9,6 +9,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from mpslab.journal import changing, recover
+
 # The four families of cells of a PolyData, in the order of the columns of Steps/CellOffsets.
 FAMILIES = ("Vertices", "Lines", "Polygons", "Strips")
 CHUNK_BYTES, SMALL_CHUNK_BYTES = 1 << 16, 1 << 10
@@ -17,8 +19,8 @@ CHUNK_BYTES, SMALL_CHUNK_BYTES = 1 << 16, 1 << 10
 class ParticleSeries:
     """A time series of particles in a VTKHDF file, opened and closed at each frame.
 
-    Between two calls of `append` the file is whole: it can be looked at while the run goes on, and
-    a kill leaves all frames written so far.
+    Between two calls of `append` the file is whole: it can be looked at while the run goes on. A
+    kill, or a full disk, in the middle of one leaves all frames written so far (`mpslab.journal`).
 
     Parameters
     ----------
@@ -43,8 +45,7 @@ class ParticleSeries:
         particles : ParticleSet
             The particles, which may be fewer or more than in the last frame.
         """
-        # Without a lock: a program that reads the frames meanwhile must not stop the run.
-        with h5py.File(self.path, "a", locking=False) as file:
+        with changing(self.path) as held, h5py.File(held, "r+" if held.size else "w") as file:
             root = _root(file)
             _append_step(root, time, [*self.fields])
             _append_points(root, particles, self.fields)
@@ -152,9 +153,10 @@ def truncate(path, time):
     ValueError
         If the file cannot be read.
     """
+    recover(path)
     if not Path(path).exists():
         return
-    with _opened(path, "r+") as file:
+    with changing(path) as held, _opened(path, held, "r+") as file:
         root = file["VTKHDF"]
         steps = root["Steps"]
         times = steps["Values"][: steps.attrs["NSteps"]]
@@ -194,7 +196,7 @@ def read_times(path):
     ValueError
         If the file cannot be read.
     """
-    with _opened(path, "r") as file:
+    with _opened(path) as file:
         steps = file["VTKHDF/Steps"]
         return steps["Values"][: steps.attrs["NSteps"]]
 
@@ -219,7 +221,7 @@ def read_frame(path, index):
     ValueError
         If the file cannot be read.
     """
-    with _opened(path, "r") as file:
+    with _opened(path) as file:
         root = file["VTKHDF"]
         begin = int(root["Steps/PointOffsets"][index])
         rows = slice(begin, begin + int(root["NumberOfPoints"][index]))
@@ -245,10 +247,11 @@ def read_frames(path):
         yield float(time), read_frame(path, index)
 
 
-def _opened(path, mode):
-    """The file, or a ValueError of one line."""
+def _opened(path, held=None, mode="r"):
+    """The file, or what is held of it, or a ValueError of one line."""
     try:
-        file = h5py.File(path, mode, locking=False)
+        # Without a lock: a program that reads the frames meanwhile must not stop the run.
+        file = h5py.File(path, mode, locking=False) if held is None else h5py.File(held, mode)
     except OSError as error:
         reason = " ".join(str(error).split())
         raise ValueError(f"particles '{path}': cannot be read as HDF5 ({reason})") from error

@@ -58,11 +58,13 @@ def check_finite(flow, step):
     """Raise RunFailed where a position or velocity is not a number."""
     bad = _not_finite(flow.particles)
     found = flow.domain.from_all((len(bad), _place(flow, bad[0]) if len(bad) else None))
-    places = [place for _, place in found if place]
+    places = [(place, rank) for rank, (_, place) in enumerate(found) if place]
     if places:
+        place, rank = min(places)
         count = sum(count for count, _ in found)
+        on = f" on rank {rank}" if len(found) > 1 else ""
         raise RunFailed(
-            f"not a number in {count} particles, {_when(flow, step)}, {_named(min(places))}"
+            f"not a number in {count} particles, {_when(flow, step)}, {_named(place)}{on}"
         )
 
 

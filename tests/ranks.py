@@ -94,32 +94,59 @@ def crossing(places):
 
 
 def spoiled(how, folder):
-    """A run that goes wrong in its third step: a rank raises, its water is not a number, ..."""
-    import errno
-
+    """A run that goes wrong after its checkpoint of 9 ms: a rank raises, or its water is lost."""
     import numpy as np
 
-    from mpslab import output, simulation, tank
+    from mpslab import simulation, tank
     from mpslab.domain import world
 
     advance, comm = simulation.advance, world()
 
     def spoil(flow, dt):
         report = advance(flow, dt)
-        if comm.rank == 1 and flow.time > 4e-4:
-            if how == "raises":
-                raise IndexError("a fault in the code")
+        if comm.rank == 1 and flow.time > SPOILED:
             if how == "nan":
                 flow.particles.velocity[0] = np.nan
+            else:
+                raise {"index": IndexError, "value": ValueError}[how]("a fault in the code")
         return report
 
-    def full(folder, step, **entries):
-        if step == 3:
-            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-
-    if how == "disk":
-        output.RunFolder.add_step = full
     simulation.advance = spoil
+    sys.exit(tank.main([*SMALL, "--out", folder]))
+
+
+def refused(folder):
+    """A start at which one rank alone finds fault with the input."""
+    from mpslab import simulation, tank
+    from mpslab.domain import world
+
+    make = simulation.make_flow
+
+    def find_fault(*arguments):
+        if world().rank == 1:
+            raise ValueError("only here")
+        return make(*arguments)
+
+    simulation.make_flow = find_fault
+    sys.exit(tank.main([*SMALL, "--out", folder]))
+
+
+def full(what, folder):
+    """A run for whose files there is no room any more, from a frame or a checkpoint on."""
+    import resource
+
+    from mpslab import checkpoint, tank, vtkhdf
+
+    owner = vtkhdf.ParticleSeries if what == "append" else checkpoint
+    write = getattr(owner, what)
+
+    def fill(*arguments):
+        time = arguments[1] if what == "append" else arguments[2]["time"]
+        if time > SPOILED:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (ROOM, ROOM))
+        return write(*arguments)
+
+    setattr(owner, what, fill)
     sys.exit(tank.main([*SMALL, "--out", folder]))
 
 
@@ -162,7 +189,10 @@ def launcher():
 
 
 SMALL = ["plunging_breaker", "--set", "tank.width=0", "--set", "scheme.solver=piccg",
-         "--set", "parallel.rebalance_every=5", "--set", "output.checkpoint=0.001"]  # fmt: skip
+         "--set", "parallel.rebalance_every=5", "--set", "output.checkpoint=0.001",
+         "--set", "output.interval=0.002"]  # fmt: skip
+SPOILED = 9e-3  # seconds of physical time after which a run goes wrong
+ROOM = 4096  # bytes that a file may have on a disk that is full
 
 
 def tank(*arguments):

@@ -15,7 +15,7 @@ FLOORS = {
     "deflation conjugate_gradient piston geometry correction obstacles",
     2: "balance communicator domain rebalance",
     1: "particles neighbors stencil sparse slabs parameters keys plugins bed paddle waves breaking "
-    "stopwatch files memory",
+    "stopwatch files journal memory",
     0: "kernels",
 }
 FLOOR_OF = {name: floor for floor, names in FLOORS.items() for name in names.split()}

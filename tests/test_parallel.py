@@ -133,11 +133,18 @@ def run_until_checkpoint(folder, ranks=2):
     """A run that has left a checkpoint, and the numbers of its ranks' processes."""
     process = tank(*SMALL, "--out", str(folder), "--ranks", str(ranks))
     first = process.stdout.readline()
-    numbers = [int(n) for n in re.search(r"processes ([\d, ]+)", first)[1].split(", ")]
+    numbers = [int(number) for number in re.findall(r"\d+: (\d+)", first)]
+    assert len(numbers) == ranks
     end = time.monotonic() + 60.0
-    while not (folder / "checkpoint.h5").exists() and time.monotonic() < end:
+    while last_step(folder) == 0 and time.monotonic() < end:
         time.sleep(0.05)
     return process, numbers
+
+
+def last_step(folder):
+    """Step of the last checkpoint, 0 if there is none."""
+    path = folder / "checkpoint.h5"
+    return checkpoint.read(path)[1]["step"] if path.exists() else 0
 
 
 def running(number):
@@ -148,17 +155,17 @@ def running(number):
         return False
 
 
-def assert_goes_on(folder, steps=3):
-    """The last checkpoint is good: the run goes on from it, on one rank."""
-    _, state = checkpoint.read(folder / "checkpoint.h5")
-    finished("--resume", str(folder), "--until", str(state["time"] + 3e-3))
-    rows = [int(row["step"]) for row in table(folder)]
-    assert rows == list(range(1, len(rows) + 1))
-    assert rows[-1] > state["step"]
+def assert_goes_on(folder, alone):
+    """The last checkpoint is good: the run goes on from it, to the same end as one that did not
+    stop.
+    """
+    assert last_step(folder) > 0
+    finished("--resume", str(folder), *END)
+    assert_same_results(alone, folder)
 
 
 @pytest.mark.parametrize("victim", [0, 1])
-def test_a_killed_rank_ends_all_within_10_seconds_and_is_named(tmp_path, victim):
+def test_a_killed_rank_ends_all_within_10_seconds_and_is_named(alone, tmp_path, victim):
     folder = tmp_path / "run"
     process, numbers = run_until_checkpoint(folder)
     os.kill(numbers[victim], signal.SIGKILL)
@@ -167,10 +174,10 @@ def test_a_killed_rank_ends_all_within_10_seconds_and_is_named(tmp_path, victim)
     assert f"PID {numbers[victim]} " in text
     assert "Killed (signal 9)" in text
     assert not any(map(running, numbers))
-    assert_goes_on(folder)
+    assert_goes_on(folder, alone)
 
 
-def test_a_killed_launcher_takes_the_ranks_with_it(tmp_path):
+def test_a_killed_launcher_takes_the_ranks_with_it(alone, tmp_path):
     folder = tmp_path / "run"
     process, numbers = run_until_checkpoint(folder)
     process.kill()
@@ -179,16 +186,16 @@ def test_a_killed_launcher_takes_the_ranks_with_it(tmp_path):
     while any(map(running, numbers)) and time.monotonic() < end:
         time.sleep(0.1)
     assert not any(map(running, numbers))
-    assert_goes_on(folder)
+    assert_goes_on(folder, alone)
 
 
-def test_ctrl_c_ends_all_ranks_after_the_same_step(tmp_path):
+def test_ctrl_c_ends_all_ranks_after_the_same_step(alone, tmp_path):
     folder = tmp_path / "run"
     process, _ = run_until_checkpoint(folder, ranks=3)
     process.send_signal(signal.SIGINT)
     text, _ = process.communicate(timeout=20.0)
     assert "Stopped at t =" in text
-    assert_goes_on(folder)
+    assert_goes_on(folder, alone)
 
 
 @pytest.mark.parametrize("how, said, steps", [("ctrl-c", "Stopped at t =", [10]),
@@ -213,22 +220,60 @@ def spoil(how, folder, program="spoiled"):
                           text=True)  # fmt: skip
 
 
-def test_a_rank_that_raises_ends_all_and_says_which_and_why(tmp_path):
-    done = spoil("raises", tmp_path / "run")
+@pytest.mark.parametrize("how, error", [("index", "IndexError"), ("value", "ValueError")])
+def test_a_rank_that_raises_ends_all_and_says_which_and_why(alone, tmp_path, how, error):
+    done = spoil(how, tmp_path / "run")
     assert done.returncode != 0
     assert "rank 1 of 2 failed" in done.stderr
-    assert "IndexError: a fault in the code" in done.stderr
+    assert f"{error}: a fault in the code" in done.stderr
+    assert_goes_on(tmp_path / "run", alone)
 
 
-def test_a_full_disk_on_rank_0_ends_all_ranks(tmp_path):
-    done = spoil("disk", tmp_path / "run")
+def test_a_fault_in_the_input_that_one_rank_alone_finds_ends_all(tmp_path):
+    line = launch.command(2, str(ROOT / "tests" / "ranks.py"), "refused", f'"{tmp_path / "run"}"')
+    done = subprocess.run(line, env=environment(), cwd=ROOT, timeout=30.0, capture_output=True,
+                          text=True)  # fmt: skip
+    assert done.returncode not in (0, 2)
+    assert "rank 1 of 2 failed" in done.stderr
+    assert "ValueError: only here" in done.stderr
+
+
+@pytest.mark.parametrize("what", ["append", "write"])
+def test_a_full_disk_ends_all_ranks_and_the_run_goes_on_when_there_is_room(alone, tmp_path, what):
+    folder = tmp_path / "run"
+    done = spoil(what, folder, "full")
     assert done.returncode == 3
-    assert done.stderr.count("cannot be written (No space left on device) after step 3") == 1
+    assert done.stderr.count("cannot be written (File too large) after step") == 1
+    assert_goes_on(folder, alone)
 
 
-def test_not_a_number_on_one_rank_is_a_failure_of_the_run(tmp_path):
-    done = spoil("nan", tmp_path / "run")
+def test_not_a_number_on_one_rank_is_a_failure_of_the_run(alone, tmp_path):
+    folder = tmp_path / "run"
+    done = spoil("nan", folder)
     assert done.returncode == 3
-    assert done.stderr.count("run stopped: not a number in 1 particles, step 3, ") == 1
-    arrays, _ = checkpoint.read(tmp_path / "run" / "failed.h5")
+    said = r"run stopped: not a number in 1 particles, step \d+, .* on rank 1\n"
+    assert len(re.findall(said, done.stderr)) == 1
+    arrays, _ = checkpoint.read(folder / "failed.h5")
     assert np.isnan(arrays["velocity"]).any(axis=1).sum() == 1
+    assert_goes_on(folder, alone)
+
+
+COLUMN = ["dam_break", "--set", "tank.width=0", "--set", "particles.spacing=0.02",
+          "--set", "parallel.rebalance_every=5"]  # fmt: skip
+
+
+def test_cuts_follow_the_water_and_ranks_without_water_do_no_harm(tmp_path):
+    for name, more in (
+        ("alone", []),
+        ("optimal", ["--ranks", "3"]),
+        ("static", ["--ranks", "4", "--set", "parallel.balance=static"]),
+    ):
+        finished(*COLUMN, "--until", "0.12", "--out", str(tmp_path / name), *more)
+    rows = table(tmp_path / "optimal", "decomposition")
+    assert any(float(r["imbalance after"]) < float(r["imbalance before"]) for r in rows)
+    assert any(int(row["migrated"]) for row in rows)
+    assert float(table(tmp_path / "static", "decomposition")[0]["imbalance after"]) > 2.0
+    last = [checkpoint.read(tmp_path / name / "checkpoint.h5")[0]
+            for name in ("alone", "optimal", "static")]  # fmt: skip
+    for name, array in last[0].items():
+        assert array.tobytes() == last[1][name].tobytes() == last[2][name].tobytes(), name
