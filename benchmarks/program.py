@@ -57,8 +57,7 @@ def _report(run, seconds, spent):
     domain, particles, steps = run.domain, run.particles, len(seconds)
     table = [[spent.get((phase, kind), 0.0) / steps for kind in KINDS] for phase in PHASES]
     mean = np.mean(domain.from_all(table), axis=0)
-    method = run.case.parallel.balance
-    work = domain.collect(load(method, particles.fluid, domain.slab, domain.slabs.count))
+    work = domain.collect(load("optimal", particles.fluid, domain.slab, domain.slabs.count))
     return {
         "ranks": domain.size,
         "particles": sum(domain.from_all(len(particles))),
