@@ -16,26 +16,30 @@ def compare(runs):
         steps = run.steps
         total = steps["kinetic_energy [J]"] + steps["potential_energy [J]"]
         change = 100.0 * np.diff(total) / total[0]
-        time, closest = _closest(run)
+        time, closest, behind = _order(run)
         energy.line(name, steps["time [s]"], total / total[0])
         pairs.line(name, time, closest)
         rows.append(
             [name, change.max(), change.min(), total[-1] / total[0], closest.min(),
-             steps["lost"][-1]]
+             behind.max(), steps["lost"][-1]]
         )  # fmt: skip
-    result.measure("rise", max(row[1] for row in rows))
-    result.measure("closest", min(row[4] for row in rows))
-    result.measure("lost", sum(row[5] for row in rows))
+    result.measure("rise", np.max([row[1] for row in rows]))
+    result.measure("closest", np.min([row[4] for row in rows]))
+    result.measure("lost", np.sum([row[6] for row in rows]))
     columns = ["run", "largest rise in a step [%]", "largest fall [%]", "energy left",
-               "closest pair [d0]", "lost"]  # fmt: skip
+               "closest pair [d0]", "deepest centre behind a wall [d0]", "lost"]  # fmt: skip
     result.table("Energy and order", columns, rows)
     return result
 
 
-def _closest(run):
-    """Time [s] and distance of the closest pair of water [spacings], frame by frame."""
-    rows = [
-        (time, cKDTree(place).query(place, k=2)[0][:, 1].min() / run.spacing)
-        for time, place, _ in run.water()
-    ]
+def _order(run):
+    """Time [s], distance of the closest pair of water, and how far the foremost centre is behind
+    bed or end walls, negative where all are in front [spacings], frame by frame.
+    """
+    length, rows = run.case["tank"]["length"], []
+    for time, place, _ in run.water():
+        closest = cKDTree(place).query(place, k=2)[0][:, 1].min()
+        x, _, z = place.T
+        behind = max(-x.min(), x.max() - length, -z.min())
+        rows.append((time, closest / run.spacing, behind / run.spacing))
     return np.array(rows).T

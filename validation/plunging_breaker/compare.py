@@ -1,25 +1,34 @@
 """Breaking, run-up and order of the waves in the tank of the paper."""
 
-import csv
-from pathlib import Path
-
 import matplotlib
 import numpy as np
 
-from mpslab import breaking, gauges, measures
-from mpslab.overturning import JET
+from mpslab import breaking, gauges, measures, scatter, waves
+from mpslab.particles import FLUID
 from mpslab.pictures import STYLE
 from mpslab.snapshots import draw_breaker, middle_slice
 from validation.comparison import Comparison
-from validation.data import foremost
+from validation.plunging_breaker.breakers import (
+    DEEP_HEIGHT,
+    FIRST,
+    HEIGHT,
+    SECOND,
+    SLOPE,
+    Waves,
+    crests,
+    moment,
+)
+from validation.plunging_breaker.expected import (
+    Expected,
+    at_equal_similarity,
+    by_class,
+    by_formulae,
+)
 
-DATA = Path(__file__).parent / "data" / "cornell_lab_slope1to10_breakers.csv"
-HEIGHT, DEEP_HEIGHT = 0.0196, 0.0186  # [m] of the paper, and unshoaled
-SLOPE, TOE, BEACH = 0.1, 0.2, 0.55  # [-], [m], [m]: water beyond runs up
-SECOND, THIRD = (1.2, 1.75), (1.9, 2.6)  # seconds in which these waves break
 LATER = 2.3  # [s]: the water of the first wave has run down
 BEFORE = (0.3, 0.8)  # seconds before the first wave breaks
-COMPANY = 1  # others within two spacings: the tip of a row has one or two, spray has none
+AROUND = 0.025  # [s] to either side of when a crest passes: it moves by 15 to 20 mm
+TIP = 10.0  # [spacings] around the crest
 
 
 def compare(runs):
@@ -28,82 +37,42 @@ def compare(runs):
     rows = {name: measures.measure(run.folder) for name, run in runs.items()}
     paper = {n: r for n, r in runs.items() if r.case["wavemaker"]["height"] == HEIGHT}
     standard = {n: r for n, r in paper.items() if n.startswith("standard")}
-    waves = [_Waves(name, run, rows[name]) for name, run in standard.items()]
-    first = waves[0]
-    result.measure("height", first.at_toe / HEIGHT)
-    result.measure("second_depth", 1e3 * first.second.depth)
-    result.measure("second_index", first.second.index)
-    if "standard-2mm-long" in runs:
-        result.measure("third_depth", 1e3 * first.third.depth)
-        result.measure("runup", first.runup(since=LATER) / _hunt(first))
+    found = [Waves(name, run) for name, run in standard.items()]
+    _measure_waves(result, found[0], thrice="standard-2mm-long" in runs)
     every = [run for name, run in runs.items() if name.startswith("standard")]
     result.measure("volume", max((_growth(run) for run in every), key=abs))
     result.measure("lost", sum(run.steps["lost"][-1] for run in every))
-    _tell_waves(result, waves)
-    _draw_breaking(result, waves)
-    _compare_recipes(result, runs, rows)
+    _tell_waves(result, found)
+    _compare_class(result, found)
+    _draw_breaking(result, found)
+    recipes = _recipes(runs)
+    _compare_water(result, recipes, rows)
+    _compare_tips(result, recipes)
     _show_particles(result, runs)
     return result
 
 
-class _Breaker:
-    """Where and how high a wave is when it overturns; all NaN if it does not."""
-
-    def __init__(self, run, rows, between):
-        jets = [
-            row for row in rows if row["jet"] >= JET and between[0] < row["time [s]"] < between[1]
-        ]
-        self.time = self.x = self.depth = self.height = np.nan
-        if jets:
-            self.time, self.x = jets[0]["time [s]"], jets[0]["crest_x [m]"]
-            self.depth = run.depth - SLOPE * max(self.x - TOE, 0.0)
-            self.height = _range(run, self.x, self.time)
-
-    @property
-    def index(self):
-        """Height over depth."""
-        return self.height / self.depth
-
-
-def _range(run, x, time):
-    """Range of the level at a place over the period before a time [m]."""
-    period, levels = run.case["wavemaker"]["period"], []
-    for moment, frame in run.frames():
-        if time - period < moment <= time:
-            place = frame["position"].astype(float)
-            levels.append(gauges.surface_elevation(
-                place, frame["kind"], run.spacing, x, 0.5 * run.case["tank"]["width"],
-                run.case["tank"]["width"],
-            ))  # fmt: skip
-    return np.nanmax(levels) - np.nanmin(levels)
-
-
-class _Waves:
-    """What the waves of a run do."""
-
-    def __init__(self, name, run, rows):
-        self.name, self.run = name, run
-        self.period = run.case["wavemaker"]["period"]
-        time, level = run.gauge("toe")
-        crest = np.argmax(np.where(time < self.period, level, -np.inf))
-        trough = level[crest:][time[crest:] < time[crest] + self.period].min()
-        self.at_toe = level[crest] - trough
-        self.second = _Breaker(run, rows, SECOND)
-        self.third = _Breaker(run, rows, THIRD)
-
-    def runup(self, since=0.0):
-        """Highest place that water with others around it reached on the slope after a time [m]."""
-        x = max(
-            foremost(position[position[:, 0] > BEACH], self.run.spacing, COMPANY)
-            for time, position, _ in self.run.water()
-            if time >= since
-        )
-        return SLOPE * (x - TOE) - self.run.depth
+def _measure_waves(result, wave, thrice):
+    """Criteria of the waves of one run; of the third wave where the run is long enough."""
+    result.measure("height", wave.at_toe / HEIGHT)
+    result.measure("first_depth", 1e3 * wave.first.depth)
+    result.measure("jet", wave.second.jet)
+    for name, breaker in (("second", wave.second), ("third", wave.third))[: 2 if thrice else 1]:
+        result.measure(f"{name}_depth", 1e3 * breaker.depth if breaker.overturns else np.nan)
+        result.measure(f"{name}_index", breaker.index if breaker.overturns else np.nan)
+    if thrice:
+        result.measure("runup", wave.runup(since=LATER) / _hunt(wave))
 
 
 def _hunt(wave):
     """Run-up of a train of waves [m]."""
     return breaking.hunt_runup(DEEP_HEIGHT, wave.period, SLOPE, wave.run.gravity)
+
+
+def _similarity(wave):
+    """Surf similarity of a train of waves."""
+    length = waves.deep_wavelength(wave.period, wave.run.gravity)
+    return breaking.surf_similarity(SLOPE, DEEP_HEIGHT, length)
 
 
 def _growth(run):
@@ -112,31 +81,54 @@ def _growth(run):
     return 100.0 * (volume[-1] / volume[time < 0.1 * time[-1]].mean() - 1.0)
 
 
-def _tell_waves(result, waves):
-    columns = ["run", "wave", "t [s]", "x [m]", "depth [mm]", "height [mm]", "height / depth"]
+def _tell_waves(result, found):
+    """Tables of where waves overturn, and of how far they run up."""
+    columns = ["run", "wave", "t [s]", "x [m]", "depth [mm]", "height [mm]", "height / depth",
+               "surf similarity", "type"]  # fmt: skip
+    period, gravity = found[0].period, found[0].run.gravity
+    similarity = _similarity(found[0])
     lines = [
-        [w.name, label, b.time, b.x, 1e3 * b.depth, 1e3 * b.height, b.index]
-        for w in waves
-        for label, b in (("second", w.second), ("third", w.third))
-        if np.isfinite(b.time)
+        [w.name, label, b.time, b.x, 1e3 * b.depth, 1e3 * b.height, b.index, similarity, b.seen]
+        for w in found
+        for label, b in {"first": w.first, **w.later}.items()
     ]
-    rises = [(w, w.runup()) for w in waves]
+    lines += [
+        [e.name, "", "", "", 1e3 * e.depth, 1e3 * e.height, e.scaled[0], e.similarity, e.kind]
+        for e in by_formulae(period, gravity) + by_class(gravity)
+    ]
+    result.table("Where waves overturn (class data: another depth and scale)", columns, lines)
+    rises = [(w, w.runup()) for w in found]
     result.table("Highest run-up, of all waves", ["run", "run-up [mm]", "over Hunt's"],
                  [[w.name, 1e3 * rise, rise / _hunt(w)] for w, rise in rises])  # fmt: skip
-    period, gravity = waves[0].period, waves[0].run.gravity
-    depth, height = breaking.breaking_point(DEEP_HEIGHT, period, SLOPE, gravity)
-    lines.append(["Goda 2010", "regular", "", "", 1e3 * depth, 1e3 * height, height / depth])
-    with DATA.open() as file:
-        for row in csv.DictReader(file):
-            lines.append([f"class data {row['case']}", row["observed breaker type"], "", "",
-                          1e3 * float(row["h_b [m]"]), 1e3 * float(row["H_b [m]"]),
-                          float(row["H_b/h_b [-]"])])  # fmt: skip
-    result.table("Where waves overturn (class data: another depth and scale)", columns, lines)
 
 
-def _draw_breaking(result, waves):
-    for wave in waves:
-        if not np.isfinite(wave.second.time):
+def _compare_class(result, found):
+    """The second and the third wave against the class data, without dimensions."""
+    measured = by_class(found[0].run.gravity)
+    length = waves.deep_wavelength(found[0].period, found[0].run.gravity)
+    seen = [
+        Expected(f"{w.name}, {label} wave", "", DEEP_HEIGHT, length, b.depth, b.height)
+        for w in found
+        for label, b in w.later.items()
+    ]
+    similarity = _similarity(found[0])
+    equal = at_equal_similarity(similarity, measured)
+    lines = [[e.name, e.similarity, *e.scaled] for e in measured]
+    lines.append(["class data at the surf similarity of the paper's wave", similarity, *equal])
+    lines += [[e.name, e.similarity, *e.scaled] for e in seen]
+    columns = ["wave", "surf similarity", "H_b / h_b", "distance from the shoreline / L_0",
+               "H_b / H_0"]  # fmt: skip
+    result.table("Breaking without dimensions (subscript 0: in deep water)", columns, lines)
+    ours = [e.scaled / equal for e in seen if e.name.startswith(f"{found[0].name},")]
+    for k, name in enumerate(("class_index", "class_place")):
+        ratios = [ratio[k] for ratio in ours]
+        worst = max(ratios, key=lambda ratio: abs(np.log(ratio)), default=np.nan)
+        result.measure(name, worst)
+
+
+def _draw_breaking(result, found):
+    for wave in found:
+        if not wave.second.overturns:
             continue
         time, frame = wave.run.frame_at(wave.second.time + 0.025)
         piece = middle_slice(time, frame, wave.run.spacing, wave.run.case["tank"]["width"])
@@ -149,19 +141,28 @@ def _draw_breaking(result, waves):
         figure.dashed("bed", bed, np.interp(bed, x, z))
 
 
-def _compare_recipes(result, runs, rows):
-    """Scatter of the three recipes at one spacing, with the same wave."""
+def _recipes(runs):
+    """Name and run of each recipe, at one spacing and with the same wave."""
     size = "4mm" if "mps-4mm" in runs else "2mm"
     names = {"mps": f"mps-{size}", "paper": f"paper-{size}",
              "standard": "standard-4mm" if size == "4mm" else "standard-2mm-long"}  # fmt: skip
+    return {recipe: (name, runs[name]) for recipe, name in names.items()}
+
+
+def _label(recipe, run):
+    return f"{recipe}, d0 = {1e3 * run.spacing:.3g} mm"
+
+
+def _compare_water(result, recipes, rows):
+    """Scatter of all water, against time."""
     rough = result.figure("Roughness of the velocity", "time [s]", "roughness [m/s]")
     alone = result.figure("Isolated particles", "time [s]", "share of the water [%]")
     before, lines = {}, []
-    for recipe, name in names.items():
+    for recipe, (name, run) in recipes.items():
         time = np.array([row["time [s]"] for row in rows[name]])
         rough_of = np.array([row["roughness [m/s]"] for row in rows[name]])
         share = 100.0 * np.array([row["isolated_share"] for row in rows[name]])
-        label = f"{recipe}, d0 = {1e3 * runs[name].spacing:.3g} mm"
+        label = _label(recipe, run)
         rough.line(label, time, rough_of)
         alone.line(label, time, share)
         part = (time >= BEFORE[0]) & (time <= BEFORE[1])
@@ -173,7 +174,62 @@ def _compare_recipes(result, runs, rows):
     result.measure("cmps", before["paper"] / before["mps"])
     columns = ["run", "roughness before breaking [m/s]", "after [m/s]", "isolated after [%]",
                "most particles over air"]  # fmt: skip
-    result.table("Scatter", columns, lines)
+    result.table("Scatter of all water", columns, lines)
+
+
+def _compare_tips(result, recipes):
+    """Scatter around the crest, or the tip of the jet, where the wave of `standard` breaks."""
+    _, run = recipes["standard"]
+    found, times = crests(run), {"first": FIRST}
+    if run.case["wavemaker"]["height"] == HEIGHT:
+        times["second"] = SECOND
+    tips = {
+        (wave, recipe): _tip(run, moment(found, between)[1], between)
+        for wave, between in times.items()
+        for recipe, (_, run) in recipes.items()
+    }
+    for other in ("paper", "mps"):
+        ratios = [tips[wave, "standard"][0] / tips[wave, other][0] for wave in times]
+        result.measure(f"tip_{other}", np.max(ratios))
+    result.measure("tip_isolated", max(tips[wave, "standard"][1] for wave in times))
+    columns = ["run", "wave", "roughness [m/s]", "isolated [%]", "particles", "rms speed [m/s]",
+               "crest at t [s]", "x [m]"]  # fmt: skip
+    title = f"Scatter within {TIP:g} d0 of where the crest of standard breaks, while crests pass"
+    result.table(title, columns, [
+        [_label(recipe, recipes[recipe][1]), wave, *tip] for (wave, recipe), tip in tips.items()
+    ])  # fmt: skip
+
+
+def _tip(run, place, between):
+    """Means over the frames in which the crest passes a place, of the water around: roughness
+    [m/s], isolated [%], number of particles and rms speed [m/s]; and when it passes [s], and the
+    place [m].
+
+    Neighbours beyond the circle around the place do not count, for any recipe.
+    """
+    frames = [(time, frame) for time, frame in run.frames() if between[0] < time < between[1]]
+    levels = [
+        gauges.surface_elevation(
+            frame["position"].astype(float), frame["kind"], run.spacing, place.x
+        )
+        for _, frame in frames
+    ]
+    if not np.isfinite(levels).any():
+        return [np.nan] * 5 + [place.x]
+    when = frames[np.nanargmax(levels)][0]
+    means = [_scatter(run, frame, place) for time, frame in frames if abs(time - when) <= AROUND]
+    return [*np.mean(means, axis=0), when, place.x]
+
+
+def _scatter(run, frame, place):
+    """Roughness [m/s], isolated share [%], number and rms speed [m/s] of the water near a place."""
+    position, velocity = frame["position"].astype(float), frame["velocity"].astype(float)
+    way = np.hypot(position[:, 0] - place.x, position[:, 2] - place.z)
+    near = (frame["kind"] == FLUID) & (way < TIP * run.spacing)
+    rough = scatter.roughness(position[near], velocity[near], run.spacing)
+    alone = scatter.isolated_share(position[near], run.spacing)
+    speed = np.sqrt(np.mean(np.sum(velocity[near] ** 2, axis=1)))
+    return rough, 100.0 * alone, np.count_nonzero(near), speed
 
 
 def _show_particles(result, runs):

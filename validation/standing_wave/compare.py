@@ -30,6 +30,10 @@ def compare(runs):
         [wave.peak(1.75) - wave.reference_peak(1.75) for wave in fine],
     )
     result.measure("order", order)
+    for name in (name for name in STANDARD if name in waves):
+        wave = waves[name]
+        result.hold(f"first mode, {name} [linear amplitudes], [T]", wave.time, wave.mode,
+                    *wave.reference)  # fmt: skip
     _draw(result, "Amplitude 0.1 h", [n for n in waves if n != "high-2mm"], waves)
     _draw(result, "Amplitude 0.25 h", ["high-2mm"], waves)
     columns = ["run", *(f"at {t:g} T" for t in PEAKS), "reference at 1.75 T", "level [spacings]"]

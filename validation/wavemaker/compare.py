@@ -38,34 +38,79 @@ def _compare_regular(result, runs):
 
 
 def _compare_solitary(result, runs):
-    finest = list(runs)[-1]
+    """Height, speed and shape of each run; the finest is judged."""
     figure = result.figure(
         "Solitary wave, 20 depths from the piston", "c (t - t_crest) / d", "level / H"
     )
-    rows = []
-    for name, run in runs.items():
-        height, depth = run.case["wavemaker"]["height"], run.depth
+    found = {name: _Solitary(run) for name, run in runs.items()}
+    name = min(found, key=lambda name: found[name].spacing)
+    finest = found[name]
+    for wave in found.values():
+        figure.line(wave.label, wave.x, wave.level)
+    figure.dashed("sech^2", finest.x, finest.theory)
+    held = {name: wave.hold(result) for name, wave in found.items()}
+    result.measure("solitary_height", finest.height)
+    result.measure("solitary_speed", finest.speed)
+    result.measure("solitary_shape", 100.0 * finest.shape)
+    result.measure("solitary_at", 100.0 * held[name]["rms error"])
+    if len(found) > 1:
+        result.converge(
+            "Height of the solitary wave lost from 10 to 20 depths, over that asked for",
+            [wave.spacing for wave in found.values()],
+            [wave.lost for wave in found.values()],
+        )
+    places = [gauge["name"] for gauge in next(iter(runs.values())).case["gauge"]]
+    columns = ["run", *(f"height at {g}" for g in places), "speed ratio", "shape [% of H]"]
+    result.table("Solitary wave over theory", columns, [
+        [wave.label, *wave.heights, wave.speed, 100.0 * wave.shape] for wave in found.values()
+    ])  # fmt: skip
+
+
+class _Solitary:
+    """The solitary wave of a run, 20 depths from the piston.
+
+    Attributes
+    ----------
+    spacing : float [m]
+    heights : list of float
+        At the gauges, over the height asked for.
+    height, speed : float
+        At 20 depths, and from 10 to 20 depths, over those of theory.
+    lost : float
+        Height lost from 10 to 20 depths, over that asked for.
+    shape : float
+        Rms difference from sech^2 of its own height, over that.
+    x, level, theory : (n,) float
+        Way of the crest since it passed [depths], level over the height asked for, and sech^2.
+    late : float
+        How far the crest is behind that of theory which passed 5 depths with it [depths].
+    """
+
+    def __init__(self, run):
+        self.spacing, depth = run.spacing, run.depth
+        asked = run.case["wavemaker"]["height"]
+        self.label = f"standard, d0 = d / {depth / run.spacing:.0f}"
         crests = {g["name"]: _crest(*run.gauge(g["name"]), depth) for g in run.case["gauge"]}
-        celerity = waves.solitary_celerity(height, depth, run.gravity)
-        speed = 10.0 * depth / (crests["20d"][0] - crests["10d"][0])
+        celerity = waves.solitary_celerity(asked, depth, run.gravity)
+        self.heights = [top / asked for _, top in crests.values()]
         moment, top = crests["20d"]
+        self.height = top / asked
+        self.lost = (crests["10d"][1] - top) / asked
+        self.speed = 10.0 * depth / (moment - crests["10d"][0]) / celerity
         time, level = run.gauge("20d")
         x = celerity * (time - moment)
-        near = np.abs(x) < REACH / waves.solitary_wave_number(height, depth)
-        own = waves.solitary_elevation(x, top, depth)
-        shape = np.sqrt(np.mean((level[near] - depth - own[near]) ** 2)) / top
-        label = f"standard, d0 = d / {depth / run.spacing:.0f}"
-        figure.line(label, x[near] / depth, (level[near] - depth) / height)
-        rows.append([label, *(crest[1] / height for crest in crests.values()), speed / celerity,
-                     100.0 * shape])  # fmt: skip
-        if name == finest:
-            theory = waves.solitary_elevation(x[near], height, depth) / height
-            figure.dashed("sech^2", x[near] / depth, theory)
-            result.measure("solitary_height", top / height)
-            result.measure("solitary_speed", speed / celerity)
-            result.measure("solitary_shape", 100.0 * shape)
-    columns = ["run", *(f"height at {g}" for g in crests), "speed ratio", "shape [% of H]"]
-    result.table("Solitary wave over theory", columns, rows)
+        near = np.abs(x) < REACH / waves.solitary_wave_number(asked, depth)
+        level = level[near] - depth
+        own = waves.solitary_elevation(x[near], top, depth)
+        self.shape = np.sqrt(np.mean((level - own) ** 2)) / top
+        self.x, self.level = x[near] / depth, level / asked
+        self.theory = waves.solitary_elevation(x[near], asked, depth) / asked
+        self.late = celerity * (moment - crests["5d"][0]) / depth - 15.0
+
+    def hold(self, result):
+        """Against sech^2 of the height asked for, timed by the crest at 5 depths; the errors."""
+        label = f"{self.label}: level 20 d from the piston against sech^2 [H], [d / c]"
+        return result.hold(label, self.x + self.late, self.level, self.x, self.theory)
 
 
 def _crest(time, level, depth):
