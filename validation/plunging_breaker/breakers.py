@@ -11,6 +11,7 @@ HEIGHT, DEEP_HEIGHT = 0.0196, 0.0186  # [m] of the paper, and unshoaled
 SLOPE, TOE, BEACH = 0.1, 0.2, 0.55  # [-], [m], [m]: water beyond runs up
 ON_SLOPE = 0.3  # [m]: a wave that breaks is beyond, and the next one not there yet
 FIRST, SECOND, THIRD = (0.7, 1.2), (1.2, 1.75), (1.9, 2.6)  # seconds in which these waves break
+PASSING = 0.05  # [s] from the steepest front to the crest, and to spare
 COMPANY = 1  # others within two spacings: the tip of a row has one or two, spray has none
 SHALLOW = 2.0  # [spacings] of water: in less, a height over the depth has no meaning
 
@@ -47,7 +48,8 @@ class Breaker:
     depth : float
         Of the still water there [m], below zero beyond the shoreline.
     height : float
-        Range of the level there over the period before [m].
+        Range of the level there over the period before [m]; of a wave that does not overturn, until
+        its crest has followed the front.
     jet : int
         Most particles over air at once, in any frame of the wave.
     overturns : bool
@@ -62,7 +64,7 @@ class Breaker:
         if crest:
             self.x = crest.x
             self.depth = run.depth - SLOPE * max(self.x - TOE, 0.0)
-            self.height = _range(run, self.x, self.time)
+            self.height = _range(run, self.x, self.time + (0.0 if self.overturns else PASSING))
 
     @property
     def seen(self):
