@@ -64,8 +64,8 @@ class ParticleSet:
         return (self.kind == PISTON) | (self.kind == PISTON_DUMMY)
 
     def take(self, rows):
-        """The particles of a mask or index, as a new set."""
-        rows = np.flatnonzero(rows) if np.asarray(rows).dtype == bool else rows
+        """The particles of a mask, index or slice, as a new set."""
+        rows = np.arange(len(self))[rows]
         return ParticleSet(**{f.name: getattr(self, f.name).take(rows, 0) for f in fields(self)})
 
 
