@@ -3,7 +3,7 @@
 import numpy as np
 
 from mpslab import gauges
-from mpslab.overturning import find_crest
+from mpslab.overturning import JET, find_crest
 from mpslab.snapshots import middle_slice
 from validation.data import foremost
 
@@ -13,6 +13,7 @@ ON_SLOPE = 0.3  # [m]: a wave that breaks is beyond, and the next one not there 
 FIRST, SECOND, THIRD = (0.7, 1.2), (1.2, 1.75), (1.9, 2.6)  # seconds in which these waves break
 PASSING = 0.05  # [s] from the steepest front to the crest, and to spare
 COMPANY = 1  # others within two spacings: the tip of a row has one or two, spray has none
+JET_WATER = 32e-6  # [m2] over air: eight particles of 2 mm; at 1 mm as many may be spray
 SHALLOW = 2.0  # [spacings] of water: in less, a height over the depth has no meaning
 
 
@@ -26,12 +27,17 @@ def crests(run):
     return found
 
 
-def moment(found, between):
+def overturns(crest, spacing):
+    """Whether enough water hangs over air."""
+    return crest.jet >= max(JET, JET_WATER / spacing**2)
+
+
+def moment(found, between, spacing):
     """Time and crest of the first frame in which a wave overturns or, if none does, of the one in
     which it is steepest; NaN and None if there are no frames.
     """
     found = [(time, crest) for time, crest in found if between[0] < time < between[1]]
-    jets = [(time, crest) for time, crest in found if crest.overturns]
+    jets = [(time, crest) for time, crest in found if overturns(crest, spacing)]
     if jets:
         return jets[0]
     return max(found, key=lambda pair: pair[1].steepness, default=(np.nan, None))
@@ -59,8 +65,8 @@ class Breaker:
         jets = [crest.jet for time, crest in found if between[0] < time < between[1]]
         self.spacing, self.jet = run.spacing, max(jets, default=0)
         self.x = self.depth = self.height = np.nan
-        self.time, crest = moment(found, between)
-        self.overturns = crest is not None and crest.overturns
+        self.time, crest = moment(found, between, run.spacing)
+        self.overturns = crest is not None and overturns(crest, run.spacing)
         if crest:
             self.x = crest.x
             self.depth = run.depth - SLOPE * max(self.x - TOE, 0.0)

@@ -183,8 +183,9 @@ def _compare_tips(result, recipes):
     found, times = crests(run), {"first": FIRST}
     if run.case["wavemaker"]["height"] == HEIGHT:
         times["second"] = SECOND
+    places = {wave: moment(found, between, run.spacing)[1] for wave, between in times.items()}
     tips = {
-        (wave, recipe): _tip(run, moment(found, between)[1], between)
+        (wave, recipe): _tip(run, places[wave], between)
         for wave, between in times.items()
         for recipe, (_, run) in recipes.items()
     }

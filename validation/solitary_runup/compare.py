@@ -14,6 +14,7 @@ COT = 19.85  # of the measured beach
 SMOOTH_SHARE = (0.80, 1.04)  # of the law, that the waves below 0.03 ran up: 0.92 +- 0.12
 TOP = 0.9  # of the crest, from where the parabola is fitted
 COMPANY = 1  # others within two spacings: the tip of a row has one or two, spray has none
+OTHERS = (1, 2, 3)  # of those, that a table gives the run-up for
 
 GAP = (
     "A gap: no run of a wave that does not break on 1:19.85. The one with measured profiles, H/d = "
@@ -39,6 +40,10 @@ def compare(runs):
     result.measure("incident", max(incident, key=lambda ratio: abs(np.log(ratio))))
     columns = ["run", "H/d asked for", "at X1, ratio", "R/d", "law", "ratio"]
     result.table("Run-up", columns, list(rows.values()))
+    columns = ["run", *(f"R/d, {k} others within two spacings" for k in OTHERS)]
+    result.table("What counts as water in the run-up", columns, [
+        [name, *(_runup(run, k) / run.depth for k in OTHERS)] for name, run in runs.items()
+    ])  # fmt: skip
     for wave, title in (("0.30", "H/d = 0.30 on 1:19.85"), ("steep", "H/d = 0.10 on 1:5")):
         _converge(result, title, [(run.spacing, rows[name][-1]) for name, run in runs.items()
                                   if name.startswith(wave)])  # fmt: skip
@@ -114,11 +119,14 @@ def _shoreline(run):
     return _toe(run) + _cot(run) * run.depth
 
 
-def _runup(run):
-    """Highest place above still water that water with others around it reached [m]."""
+def _runup(run, others=COMPANY):
+    """Highest place above still water that water with others around it holds in two frames running
+    [m]; a lone particle that slides ahead may meet another in one.
+    """
     shore = _shoreline(run)
-    x = max(foremost(p[p[:, 0] > shore - 0.05], run.spacing, COMPANY) for _, p, _ in run.water())
-    return (x - shore) / _cot(run)
+    places = (position[position[:, 0] > shore - 0.05] for _, position, _ in run.water())
+    x = np.array([foremost(place, run.spacing, others) for place in places])
+    return (np.minimum(x[1:], x[:-1]).max() - shore) / _cot(run)
 
 
 def _draw_breaking(result, data, rows):
