@@ -98,16 +98,16 @@ def _prepared(options, arguments, comm, tell):
     _check_until(options.until, case)
     ranks = _ranks(options, comm)
     check_ranks(case, ranks)
-    report = None if options.resume else preflight(case)
-    if options.check:
-        tell(f"{case.name}: {case.title}\n{report.text()}")
-        return None
-    if ranks != comm.size:
+    if ranks != comm.size and not options.check:
         line = sys.argv[1:] if arguments is None else arguments
         line = launch.command(ranks, "-m", "mpslab.tank", *line)
         os.execv(line[0], line)
     if options.resume:
         return Simulation.resume(options.resume)
+    report = preflight(case)
+    if options.check:
+        tell(f"{case.name}: {case.title}\n{report.text()}")
+        return None
     for warning in report.warnings:
         tell(f"Warning: {warning}", file=sys.stderr)
     return Simulation(case, options.out or comm.bcast(_free_folder(case.name)))
