@@ -1,10 +1,20 @@
 """Velocities of the water at the start."""
 
+import numpy as np
+
 from mpslab.waves import standing_wave_velocity
 
 
-def set_velocity(case, particles):
-    """Give the water the velocities that ``initial.type`` asks for, in place."""
+def set_velocity(case, particles, total):
+    """Give the water the velocities that ``initial.type`` asks for, in place.
+
+    Parameters
+    ----------
+    case : mpslab.parameters.Case
+    particles : ParticleSet
+    total : callable
+        Sum of (n,) values over the particles of all ranks.
+    """
     if case.initial.type == "rest":
         return
     fluid, start = particles.fluid, case.initial
@@ -14,12 +24,19 @@ def set_velocity(case, particles):
             x, z, start.amplitude, start.mode, case.tank.length, case.tank.depth, case.fluid.gravity
         )
     else:
-        u, w = _linear(start.type, start.rate, x, z)
+        u, w = _linear(start.type, start.rate, x, z, lambda v: _mean(v, fluid, total))
     particles.velocity[fluid, 0], particles.velocity[fluid, 2] = u, w
 
 
-def _linear(kind, rate, x, z):
+def _mean(values, fluid, total):
+    """Mean over the water of all ranks, of which these are the values of this one."""
+    spread = np.zeros(len(fluid))
+    spread[fluid] = values
+    return total(spread) / total(fluid.astype(float))
+
+
+def _linear(kind, rate, x, z, mean):
     """Strain or rotation about the centre of mass, without momentum: (n,) each [m/s]."""
-    x, z = x - x.mean(), z - z.mean()
+    x, z = x - mean(x), z - mean(z)
     u, w = (rate * x, -rate * z) if kind == "strain" else (rate * z, -rate * x)
-    return u - u.mean(), w - w.mean()
+    return u - mean(u), w - mean(w)

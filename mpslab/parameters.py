@@ -142,7 +142,11 @@ class Particles:
         high=20,
     )
     jitter: float = key(
-        "random displacement of the fluid at t = 0", 0.001, unit="spacings", low=0, high=0.3
+        "random displacement of the fluid at t = 0, where it is not settled",
+        0.001,
+        unit="spacings",
+        low=0,
+        high=0.3,
     )
     seed: int = key("seed of the random displacement", 0, low=0, high=10**9)
     bed: str = key(
@@ -193,7 +197,8 @@ class Scheme:
     laplacian_radius: float = key("radius of the Laplacian", 2.1, unit="spacings", low=1.5, high=6)
     relaxation: float = key("relaxation factor of the source 'density'", 0.2, above=0, high=1)
     gamma: float = key(
-        "weight of the density error in the sources 'mixed', 'corrected' and 'adjoint'",
+        "share of the density error that a largest step takes back, in the sources 'mixed', "
+        "'corrected' and 'adjoint'; over 20 layers of water less, 20 gamma/layers",
         0.005,
         low=0,
         high=1,
@@ -203,6 +208,12 @@ class Scheme:
     )
     shifting_strength: float = key(
         "strength of 'shifting' and 'corrected_shifting'", 0.25, low=0, high=1
+    )
+    settling: int = key(
+        "passes of 'corrected_shifting' before the start, which take the water off the lattice",
+        80,
+        low=0,
+        high=10_000,
     )
     ds_distance: float = key("distance kept by 'ds'", 0.8, unit="spacings", above=0, high=1)
     collision_distance: float = key(

@@ -4,7 +4,7 @@ import time as clock
 
 import numpy as np
 
-from mpslab import checkpoint, diagnostics, geometry, initial, timestep
+from mpslab import checkpoint, diagnostics, geometry, initial, settling, timestep
 from mpslab.cases import dumps, load_case
 from mpslab.communicator import on_root
 from mpslab.domain import world
@@ -48,10 +48,11 @@ class Simulation:
     def __init__(self, case, out=None):
         paddle = make_paddle(case)
         particles = geometry.build_particles(case, paddle.backmost if paddle else 0.0)
-        initial.set_velocity(case, particles)
         piston = Piston(particles, paddle, case.particles.spacing)
         self.at_start = int(np.count_nonzero(particles.fluid))
         flow = make_flow(case, particles, piston, geometry.period(case))
+        settling.settle(flow)
+        initial.set_velocity(case, flow.particles, flow.domain.total)
         self._set_up(case, flow, None if out is None else _on_root(RunFolder.create, out))
         self._record.write_case(dumps(case))
         self._record.begin()

@@ -14,6 +14,8 @@ from mpslab.piston import Piston
 from mpslab.slabs import make_slabs
 from mpslab.stencil import Stencil, make_stencil
 
+LAYERS = 20  # of water, up to which the weight of a density error does not depend on them
+
 
 @dataclass
 class Flow:
@@ -123,6 +125,17 @@ def solver_of(case, ranks):
     return solver
 
 
+def density_rate(case):
+    """At which rate the mixed sources take back an error of the number density [1/s].
+
+    ``scheme.gamma`` is its share in a largest step, up to 20 layers of water; of more layers it
+    is less, so that the time is always the same part of that of a wave across the depth: a
+    change of rate needs a pressure which grows with the square of the layers.
+    """
+    layers = case.tank.depth / case.particles.spacing
+    return case.scheme.gamma * min(1.0, LAYERS / layers) / case.time.maximum
+
+
 def advance(flow, dt):
     """Advance the flow by one time step dt [s]; returns the solver's report.
 
@@ -137,13 +150,13 @@ def advance(flow, dt):
         flow.particles, (start, before) = domain.share_out(flow.particles, start, before)
     particles = flow.particles
     with watch.phase("neighbours"):
-        _find_neighbors(flow)
+        find_neighbors(flow)
     with watch.phase("operators"):
         if flow.needs_correction:
             flow.correction = correction.matrices(particles, flow.neighbors, flow.stencil)
         _add_viscosity(flow, dt)
         _stabilise(flow, "predicted", particles.position, dt)
-        graded = _find_surface(flow)
+        graded = find_surface(flow)
     pull = walls.pull(particles, before, flow.case.fluid.gravity, dt)
     with watch.phase("assembly"):
         system, rows = _assemble(flow, graded, pull, dt)
@@ -170,7 +183,8 @@ def _predict(flow, dt):
         flow.piston.move(particles, flow.time + dt)
 
 
-def _find_neighbors(flow):
+def find_neighbors(flow):
+    """The neighbour list of the particles as they are."""
     radius = max(flow.stencil.radius, flow.laplacian_stencil.radius)
     particles = flow.particles
     active = particles.fluid if flow.extrapolates else particles.carries_pressure
@@ -191,7 +205,7 @@ def _add_viscosity(flow, dt):
     particles.velocity += dt * acceleration
 
 
-def _find_surface(flow):
+def find_surface(flow):
     """Number density and surface; the grade of the surface where the scheme asks for it."""
     particles, neighbors = flow.particles, flow.neighbors
     density.number_density(
@@ -221,7 +235,7 @@ def _assemble(flow, graded, pull, dt):
     right = np.empty(len(particles))
     flow.source.source(
         particles.position, velocity, particles.kind, n, neighbors.indptr, neighbors.indices,
-        flow.stencil, flow.correction, dt, flow.case.scheme, right,
+        flow.stencil, flow.correction, dt, density_rate(flow.case), flow.case.scheme, right,
     )  # fmt: skip
     if flow.extrapolates:
         right += walls.flux(particles, neighbors, stencil, terms, pull)

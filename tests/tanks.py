@@ -18,6 +18,7 @@ TABLES = {
     "tank": {"length": 0.04, "depth": 0.02},
     "particles": {"spacing": 0.002, "jitter": 0.0},
     "time": {"end": 1.0},
+    "scheme": {"settling": 0},
 }
 
 

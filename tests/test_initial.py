@@ -16,7 +16,7 @@ def water_of(kind, **changes):
     start = {"initial.type": kind, "initial.rate": RATE}
     case = make_case({**tank, **start, **changes})
     particles = geometry.build_particles(case)
-    initial.set_velocity(case, particles)
+    initial.set_velocity(case, particles, np.sum)
     assert np.all(particles.velocity[~particles.fluid] == 0.0)
     return particles.take(particles.fluid)
 

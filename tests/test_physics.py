@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tanks import CLASSIC, flow_of, make_case, run
 
-from mpslab import initial, load_case, plugins, timestep
+from mpslab import Simulation, initial, load_case, plugins, timestep
 from mpslab.diagnostics import max_speed, volume
 from mpslab.particles import WALL
 from mpslab.step import advance
@@ -127,13 +127,40 @@ def test_layer_of_water_keeps_its_level_and_volume(scheme):
     assert volume(flow.particles, flow.stencil) == pytest.approx(0.014**2 * 0.02, rel=0.02)
 
 
+def test_deep_column_has_its_pressure_from_the_first_steps_on():
+    """60 layers.  As it leaves the lattice, unsettled water has nothing to stand on, then a shock.
+
+    In a collapsing column the pressure at the rear of the bed can only be less than rho g h.
+    """
+    lowest, highest = rear_pressure(80)
+    assert lowest > 0.6
+    assert highest < 1.2
+    lowest, highest = rear_pressure(0)
+    assert lowest < 0.4
+    assert highest > 2.0
+
+
+def rear_pressure(settling):
+    """Least and largest p/(rho g h) near the rear of the bed, to 0.04 s, after ten steps."""
+    column = {"tank.width": 0.0, "particles.spacing": 0.005, "scheme.settling": settling}
+    simulation = Simulation(load_case("dam_break", column))
+    ratios = []
+    while simulation.time < 0.04:
+        simulation.advance()
+        water = simulation.particles.take(simulation.particles.fluid)
+        near = (water.position[:, 0] < 0.06) & (water.position[:, 2] < 0.015)
+        ratios.append(water.pressure[near].mean() / (DENSITY * GRAVITY * 0.3))
+    after_the_first = np.array(ratios[10:])
+    return after_the_first.min(), after_the_first.max()
+
+
 def test_standing_wave_has_its_linear_period_and_does_not_die():
     """The centre of the water swings from side to side; it crosses the middle every T/2."""
     case = load_case("standing_wave", {"particles.spacing": 0.004, "initial.amplitude": 0.01})
     k = math.pi / case.tank.length
     period = 2.0 * math.pi / math.sqrt(GRAVITY * k * math.tanh(k * case.tank.depth))
     flow, dt = flow_of(case), 0.0
-    initial.set_velocity(case, flow.particles)
+    initial.set_velocity(case, flow.particles, flow.domain.total)
     water, swing = flow.particles.fluid, []
     while flow.time < 1.2 * period and len(swing) < 1000:
         dt, _ = timestep.choose(case, dt, max_speed(flow.particles))

@@ -12,7 +12,7 @@ NAMES = plugins.names("sources")
 DT = 1e-3
 
 
-def source(name, position, velocity, dim, radius=2.1, ratio=None, dt=DT, reach=None, **changes):
+def source(name, position, velocity, dim, radius=2.1, ratio=None, dt=DT, reach=None, rate=5.0, **changes):
     """b at every particle, spacing 1; `ratio` stands in for n over the density of rest."""
     stencil = make_stencil(dim, 1.0, radius)
     found = neighbors_of(position, reach or radius)
@@ -24,7 +24,7 @@ def source(name, position, velocity, dim, radius=2.1, ratio=None, dt=DT, reach=N
     c = matrices_of(position, kind, found, stencil)
     plugins.load("sources", name).source(
         position, np.ascontiguousarray(velocity), kind, n, found.indptr, found.indices, stencil,
-        c, dt, scheme(**changes), out,
+        c, dt, rate, scheme(**changes), out,
     )  # fmt: skip
     return out
 
@@ -95,7 +95,7 @@ def test_shear_and_rotation_inside_the_lattice_need_no_pressure(name):
 def test_corrected_divergence_is_exact_for_linear_velocities_in_any_arrangement():
     position = cloud(3, 400, seed=3)
     matrix = np.array([[0.3, -0.2, 0.1], [0.5, 0.4, -0.3], [0.2, 0.1, -1.1]])
-    b = source("corrected", position, position @ matrix.T, 3, ratio=1.0, gamma=0.0)
+    b = source("corrected", position, position @ matrix.T, 3, ratio=1.0, rate=0.0)
     exact = np.isclose(b, -np.trace(matrix) / DT, rtol=1e-9)
     assert exact.mean() > 0.9  # the rest have too few neighbours for an inverse
 
@@ -111,7 +111,7 @@ def test_adjoint_divergence_is_the_adjoint_of_the_corrected_gradient():
     plugins.load("gradients", "corrected").gradient(
         position, p, kind, found.indptr, found.indices, stencil, c, out
     )
-    divergence = -DT * source("adjoint", position, velocity, 3, ratio=1.0, gamma=0.0)
+    divergence = -DT * source("adjoint", position, velocity, 3, ratio=1.0, rate=0.0)
     assert p @ divergence == pytest.approx(-np.sum(velocity * out), rel=1e-10)
 
 
@@ -197,7 +197,7 @@ def test_ecs_adds_the_two_compensating_terms():
 
 
 def test_mixed_is_divergence_over_dt_plus_a_share_of_the_deviation():
-    """Exact divergence of a linear field on the lattice: -div u/dt + gamma (n - n0)/(n0 dt^2)."""
+    """Exact divergence of a linear field on the lattice: -div u/dt + s (n - n0)/(n0 dt)."""
     for dim in (2, 3):
-        b = at_centre("mixed", dim, squeeze, ratio=1.03, gamma=0.05)
-        assert b == pytest.approx(0.2 * dim / DT + 0.05 * 0.03 / DT**2, rel=1e-12)
+        b = at_centre("mixed", dim, squeeze, ratio=1.03, rate=50.0)
+        assert b == pytest.approx(0.2 * dim / DT + 50.0 * 0.03 / DT, rel=1e-12)

@@ -6,9 +6,10 @@ NEEDS_CORRECTION = True
 
 
 def source(
-    position, velocity, kind, number_density, indptr, indices, stencil, correction, dt, scheme, out
+    position, velocity, kind, number_density, indptr, indices, stencil, correction, dt, rate,
+    scheme, out,
 ):
-    """b_i = -<div u*>_i/dt + gamma (n_i - n_r)/(n_r dt^2) [1/s2].
+    """b_i = -<div u*>_i/dt + s (n_i - n_r)/(n_r dt) [1/s2].
 
     <div u>_i = (Ds/n0) sum_j u_ij . C_j r_ij w/r^2.  The pressure forces of the gradient
     "corrected" do the work sum_i p_i <div u>_i of just this divergence: where it is zero, they
@@ -17,4 +18,4 @@ def source(
     """
     adjoint_divergence(position, velocity, kind, indptr, indices, stencil, correction, out)
     out /= -dt
-    out += (scheme.gamma / dt**2) * (number_density / stencil.relaxed - 1.0)
+    out += (rate / dt) * (number_density / stencil.relaxed - 1.0)

@@ -9,9 +9,10 @@ LEAST_DETERMINANT = 0.05
 
 
 def source(
-    position, velocity, kind, number_density, indptr, indices, stencil, correction, dt, scheme, out
+    position, velocity, kind, number_density, indptr, indices, stencil, correction, dt, rate,
+    scheme, out,
 ):
-    """b_i = -<div u*>_i/dt + gamma (n_i - n_r)/(n_r dt^2) [1/s2].
+    """b_i = -<div u*>_i/dt + s (n_i - n_r)/(n_r dt) [1/s2].
 
     <div u> with the correction matrix of Khayyer & Gotoh (2011), over all neighbours; n_r is the
     number density of relaxed water (`Stencil.relaxed`).
@@ -20,4 +21,4 @@ def source(
     correction_matrix(position, kind, indptr, indices, stencil, True, LEAST_DETERMINANT, c)
     corrected_divergence(position, velocity, indptr, indices, stencil, c, out)
     out /= -dt
-    out += (scheme.gamma / dt**2) * (number_density / stencil.relaxed - 1.0)
+    out += (rate / dt) * (number_density / stencil.relaxed - 1.0)

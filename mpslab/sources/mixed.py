@@ -4,9 +4,10 @@ from mpslab.kernels.divergence import divergence
 
 
 def source(
-    position, velocity, kind, number_density, indptr, indices, stencil, correction, dt, scheme, out
+    position, velocity, kind, number_density, indptr, indices, stencil, correction, dt, rate,
+    scheme, out,
 ):
-    """b_i = -<div u*>_i/dt + gamma (n_i - n0)/(n0 dt^2) (Tanaka & Masunaga 2010) [1/s2]."""
+    """b_i = -<div u*>_i/dt + s (n_i - n0)/(n0 dt) (Tanaka & Masunaga 2010) [1/s2]."""
     divergence(position, velocity, indptr, indices, stencil, out)
     out /= -dt
-    out += (scheme.gamma / dt**2) * (number_density / stencil.n0 - 1.0)
+    out += (rate / dt) * (number_density / stencil.n0 - 1.0)
