@@ -12,7 +12,9 @@ NAMES = plugins.names("sources")
 DT = 1e-3
 
 
-def source(name, position, velocity, dim, radius=2.1, ratio=None, dt=DT, reach=None, rate=5.0, **changes):
+def source(
+    name, position, velocity, dim, radius=2.1, ratio=None, dt=DT, reach=None, rate=5.0, **changes
+):
     """b at every particle, spacing 1; `ratio` stands in for n over the density of rest."""
     stencil = make_stencil(dim, 1.0, radius)
     found = neighbors_of(position, reach or radius)
