@@ -11,8 +11,6 @@ from mpslab import bed as beds
 from mpslab import obstacles
 from mpslab.particles import DUMMY, FLUID, PISTON, PISTON_DUMMY, WALL, make_particles
 
-SHAKE = 0.1  # spacings: a random displacement from which the water finds its order
-
 
 def effective_length(case):
     """Length of the tank in whole spacings [m]."""
@@ -78,8 +76,7 @@ def _with_obstacles(case, position, kinds):
 
 def _jitter(case, n):
     random = np.random.default_rng(case.particles.seed)
-    most = SHAKE if case.scheme.settling else case.particles.jitter
-    move = random.uniform(-1.0, 1.0, (n, 3)) * most * case.particles.spacing
+    move = random.uniform(-1.0, 1.0, (n, 3)) * case.particles.jitter * case.particles.spacing
     if case.tank.width == 0.0:
         move[:, 1] = 0.0
     return move

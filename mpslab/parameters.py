@@ -142,11 +142,7 @@ class Particles:
         high=20,
     )
     jitter: float = key(
-        "random displacement of the fluid at t = 0, where it is not settled",
-        0.001,
-        unit="spacings",
-        low=0,
-        high=0.3,
+        "random displacement of the fluid at t = 0", 0.001, unit="spacings", low=0, high=0.3
     )
     seed: int = key("seed of the random displacement", 0, low=0, high=10**9)
     bed: str = key(

@@ -129,11 +129,11 @@ def density_rate(case):
     """At which rate the mixed sources take back an error of the number density [1/s].
 
     ``scheme.gamma`` is its share in a largest step, up to 20 layers of water; of more layers it
-    is less, so that the time is always the same part of that of a wave across the depth: a
-    change of rate needs a pressure which grows with the square of the layers.
+    is less, so that the time is always the same part of that of a wave across the depth: under
+    the weight of the layers, a change of rate needs a pressure that grows with their square.
     """
-    layers = case.tank.depth / case.particles.spacing
-    return case.scheme.gamma * min(1.0, LAYERS / layers) / case.time.maximum
+    layers = case.tank.depth / case.particles.spacing if case.fluid.gravity else 0.0
+    return case.scheme.gamma * LAYERS / max(layers, LAYERS) / case.time.maximum
 
 
 def advance(flow, dt):

@@ -10,7 +10,7 @@ FLOORS = {
     6: "tank progress measures launch",
     5: "simulation record watch output checkpoint vtkhdf snapshots overturning gauges pictures "
     "preflight cases initial provenance diagnostics scatter",
-    4: "step timestep",
+    4: "step timestep settling",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
     "deflation conjugate_gradient piston geometry correction obstacles",
     2: "balance communicator domain rebalance",

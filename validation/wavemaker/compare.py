@@ -1,6 +1,7 @@
 """The waves that the piston makes against the theories it follows."""
 
 import numpy as np
+from scipy.optimize import curve_fit
 
 from mpslab import waves
 from validation.comparison import Comparison
@@ -90,8 +91,9 @@ class _Solitary:
         self.spacing, depth = run.spacing, run.depth
         asked = run.case["wavemaker"]["height"]
         self.label = f"standard, d0 = d / {depth / run.spacing:.0f}"
-        crests = {g["name"]: _crest(*run.gauge(g["name"]), depth) for g in run.case["gauge"]}
         celerity = waves.solitary_celerity(asked, depth, run.gravity)
+        gauges = [gauge["name"] for gauge in run.case["gauge"]]
+        crests = {name: _crest(*run.gauge(name), depth, asked, celerity) for name in gauges}
         self.heights = [top / asked for _, top in crests.values()]
         moment, top = crests["20d"]
         self.height = top / asked
@@ -113,11 +115,17 @@ class _Solitary:
         return result.hold(label, self.x + self.late, self.level, self.x, self.theory)
 
 
-def _crest(time, level, depth):
-    """When the crest passes a gauge [s], and its height over still water [m], by a parabola."""
+def _crest(time, level, depth, asked, celerity):
+    """When the crest passes a gauge [s] and its height over still water [m], by least squares.
+
+    Of the wave of theory that comes nearest: the crest alone is as grainy as its particles.
+    """
     level = np.where(np.isfinite(level), level - depth, 0.0)
-    top = np.argmax(level)
-    near = level > 0.9 * level[top]
-    near &= np.abs(time - time[top]) < 0.1
-    a, b, c = np.polyfit(time[near] - time[top], level[near], 2)
-    return time[top] - 0.5 * b / a, c - 0.25 * b**2 / a
+    top = time[np.argmax(level)]
+    near = celerity * np.abs(time - top) < REACH / waves.solitary_wave_number(asked, depth)
+
+    def wave(time, moment, height):
+        return waves.solitary_elevation(celerity * (time - moment), height, depth)
+
+    (moment, height), _ = curve_fit(wave, time[near], level[near], [top, asked])
+    return moment, height
