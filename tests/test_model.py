@@ -38,7 +38,8 @@ def step(tank, ranks):
 
 
 def test_the_tank_has_the_particles_and_the_slabs_of_the_program(tank):
-    run = Simulation(load_case("plunging_breaker", {"particles.spacing": SPACING}))
+    lattice = {"particles.spacing": SPACING, "scheme.settling": 0}
+    run = Simulation(load_case("plunging_breaker", lattice))
     domain, particles = run.domain, run.particles
     count = domain.slabs.count
     assert model.slabs_run_out(tank) == count
