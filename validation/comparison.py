@@ -50,7 +50,8 @@ def _short(column):
     return [float(f"{value:.{DIGITS}g}") for value in column]
 
 
-def _rms(error):
+def rms(error):
+    """Root of the mean square of an error, (n,) or a list."""
     return float(np.sqrt(np.mean(np.square(error))))
 
 
@@ -134,9 +135,9 @@ class Comparison:
         at, measured = np.asarray(at)[inside], np.asarray(measured)[inside]
         error = np.interp(at, x, seen) - measured
         lags = LAGS * np.ptp(at)
-        rms = [_rms(np.interp(at + lag, x, seen) - measured) for lag in lags]
+        missed = [rms(np.interp(at + lag, x, seen) - measured) for lag in lags]
         peak = np.interp(at, x, seen).max() / measured.max()
-        row = dict(zip(ERRORS, (label, _rms(error), error.mean(), lags[np.argmin(rms)], peak),
+        row = dict(zip(ERRORS, (label, rms(error), error.mean(), lags[np.argmin(missed)], peak),
                        strict=True))  # fmt: skip
         self.errors.append(row)
         return row

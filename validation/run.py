@@ -40,6 +40,15 @@ class Run:
         return self.case["tank"]["depth"]
 
     @property
+    def label(self):
+        """Recipe, spacing and seed, as "standard, 3-D, d0 = 2 mm, seed 1"."""
+        scheme, seed = self.case["scheme"], self.case["particles"]["seed"]
+        recipe = "mps" if scheme["gradient"] == "mps" else scheme["recipe"]
+        width = ", 3-D" if self.case["tank"]["width"] else ""
+        other = f", seed {seed}" if seed else ""
+        return f"{recipe}{width}, d0 = {1e3 * self.spacing:.3g} mm{other}"
+
+    @property
     def gravity(self):
         """Acceleration of gravity [m/s2]."""
         return self.case["fluid"]["gravity"]

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from validation.comparison import Comparison
+from validation.comparison import Comparison, rms
 from validation.wave_analysis import harmonics
 
 DATA = Path(__file__).parent / "data" / "beji_battjes_luth_bar_caseA.csv"
@@ -41,20 +41,16 @@ def _judge(result, x, seen, measured, height):
     """Measure the criteria, from amplitudes (gauges, 3) [m] at places x (gauges,) [m]."""
     behind = x > BEHIND
     steady = behind & (x < THIRD_TO)
-    result.measure("first", _rms((seen - measured)[~behind, 0]) / height)
+    result.measure("first", rms((seen - measured)[~behind, 0]) / height)
     result.measure("second", (seen[behind, 1] / measured[behind, 1]).mean())
     result.measure("third", (seen[steady, 2] / measured[steady, 2]).mean())
-
-
-def _rms(error):
-    return np.sqrt(np.mean(error**2))
 
 
 def _error(seen, measured, x, height):
     """Rms difference of the three harmonics at all gauges where they are steady, over height."""
     steady = np.ones(seen.shape, bool)
     steady[x > THIRD_TO, 2] = False
-    return _rms((seen - measured)[steady]) / height
+    return rms((seen - measured)[steady]) / height
 
 
 def _start(run):
@@ -107,7 +103,7 @@ def _hold_levels(result, run, gauges):
                     moved, gauge.level)  # fmt: skip
         if place in SHOWN:
             figure = result.figure(f"Surface at x = {place:g} m", "time [s]", "elevation [m]")
-            figure.line(_label(run), time[part], level[part] - run.depth)
+            figure.line(run.label, time[part], level[part] - run.depth)
             shown = (moved >= start) & (moved <= start + PERIODS * period)
             figure.points("Luth et al. 1994, clock set", moved[shown], gauge.level[shown])
 
@@ -123,21 +119,17 @@ def _ahead(run, place, gauge):
     return period * (turn + np.ceil((MEASURED_FROM - _start(run)) / period - turn))
 
 
-def _label(run):
-    return f"standard, d0 = {1e3 * run.spacing:.3g} mm"
-
-
 def _draw(result, runs, x, seen, measured):
     """Figures and table of the amplitudes."""
     for order, name in enumerate(ORDERS):
         figure = result.figure(f"{name} harmonic", "x [m]", "amplitude [mm]")
         for run, amplitudes in zip(runs, seen, strict=True):
-            figure.line(_label(run), x, 1e3 * amplitudes[:, order])
+            figure.line(run.label, x, 1e3 * amplitudes[:, order])
         figure.points("Luth et al. 1994", x, 1e3 * measured[:, order])
     columns = ["run", "x [m]"]
     columns += [f"{n} harmonic{w} [mm]" for w in ("", ", measured") for n in (1, 2, 3)]
     rows = [
-        [_label(run), *row]
+        [run.label, *row]
         for run, amplitudes in zip(runs, seen, strict=True)
         for row in np.column_stack([x, 1e3 * amplitudes, 1e3 * measured]).tolist()
     ]

@@ -25,10 +25,6 @@ def compare(runs):
     return result
 
 
-def _label(run):
-    return f"standard, d0 = {1e3 * run.spacing:.3g} mm"
-
-
 def _compare_levels(result, runs, data):
     time, gauges = data["t [s]"], [gauge["name"] for gauge in runs[-1].case["gauge"]]
     errors = np.array([[_level_error(run, gauge, data) for gauge in gauges] for run in runs])
@@ -36,7 +32,7 @@ def _compare_levels(result, runs, data):
         measured, place = data[f"depth_{gauge} [m]"], gauge.replace("x", "x = ")
         figure = result.figure(f"Level at {place} m", "time [s]", "level [m]")
         for run in runs:
-            figure.line(_label(run), *_level(run, gauge))
+            figure.line(run.label, *_level(run, gauge))
         part = time <= runs[-1].case["time"]["end"]
         figure.dashed("Kleefsman et al. 2005", time[part], measured[part])
         result.hold(f"level at {place} m [m], [s]", *_level(runs[-1], gauge), time, measured)
@@ -45,7 +41,7 @@ def _compare_levels(result, runs, data):
     if len(runs) > 1:
         spacings = [run.spacing for run in runs]
         result.converge("Levels, mean of four gauges, over the column", spacings, means)
-    rows = [[_label(run), *error, error.mean()] for run, error in zip(runs, errors, strict=True)]
+    rows = [[run.label, *error, error.mean()] for run, error in zip(runs, errors, strict=True)]
     columns = ["run", *(gauge.replace("x", "x = ") + " m" for gauge in gauges), "mean"]
     result.table("Levels: rms difference from the experiment over the column", columns, rows)
 
@@ -79,7 +75,7 @@ def _compare_impulses(result, runs, data):
         late = 1e3 * (seen.start - experiment.start)
         ratios = [seen.of(probe) / experiment.of(probe) for probe in FRONT + TOP]
         front, top = (seen.over(face) / experiment.over(face) for face in (FRONT, TOP))
-        rows.append([_label(run), late, *ratios, front, top])
+        rows.append([run.label, late, *ratios, front, top])
     result.measure("arrival", late)
     result.measure("impulse", ratios[0])
     result.measure("impulse_front", front)
@@ -125,11 +121,11 @@ def _compare_pressures(result, runs, data):
         (time, pressure), measured = _pressure(run, probe), data[f"{probe} [Pa]"]
         part = measured_time <= time[-1]
         figure = result.figure(f"Pressure at {probe}", "time [s]", "pressure [Pa]")
-        figure.line(_label(run), time, pressure)
+        figure.line(run.label, time, pressure)
         figure.dashed("Kleefsman et al. 2005", measured_time[part], measured[part])
         result.hold(f"pressure at {probe} [Pa], [s]", time, pressure, measured_time, measured)
         peaks = np.argmax(pressure), np.argmax(measured[part])
         rows.append([probe, pressure[peaks[0]], time[peaks[0]],
                      measured[peaks[1]], measured_time[peaks[1]]])  # fmt: skip
     columns = ["probe", "peak [Pa]", "at [s]", "measured [Pa]", "at [s]"]
-    result.table(f"Peaks of the pressure, {_label(run)}", columns, rows)
+    result.table(f"Peaks of the pressure, {run.label}", columns, rows)

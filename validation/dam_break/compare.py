@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from validation.comparison import Comparison
+from validation.comparison import Comparison, rms
 from validation.data import foremost, read_columns
 
 DATA = Path(__file__).parent / "data"
@@ -41,20 +41,10 @@ def _standard(runs):
     return _from_coarse_to_fine(flat)
 
 
-def _label(name, run):
-    recipe = name if name in RECIPES else "standard"
-    width = ", 3-D" if run.case["tank"]["width"] else ""
-    return f"{recipe}{width}, d0 = {1e3 * run.spacing:.3g} mm"
-
-
 def _converge(result, title, runs, errors):
     """Tell how errors (n,) of runs by name fall with the spacing, where there are several."""
     if len(runs) > 1:
         result.converge(title, [run.spacing for run in runs.values()], errors)
-
-
-def _rms(error):
-    return float(np.sqrt(np.mean(np.square(error))))
 
 
 def _compare_front(result, runs):
@@ -67,15 +57,15 @@ def _compare_front(result, runs):
     measured = front["t [s]"], front["x_front [m]"] / BASE
     heights = height["t [s]"], height["H=eta/(2a) [-]"]
     rows, scale, runs = [], np.sqrt(2.0 * 9.81 / BASE), _from_coarse_to_fine(runs)
-    for name, run in runs.items():
+    for run in runs.values():
         time, x = _front(run)
         shift, error = _fit(time, x / BASE, *measured)
         rear, level = run.gauge("rear")
         part = heights[0] <= rear[-1]
         seen = np.interp(heights[0][part], rear, level / (2.0 * BASE))
-        place.line(_label(name, run), (time - shift) * scale, x / BASE)
-        top.line(_label(name, run), rear * np.sqrt(9.81 / BASE), level / (2.0 * BASE))
-        rows.append([_label(name, run), shift * scale, error, _rms(seen - heights[1][part])])
+        place.line(run.label, (time - shift) * scale, x / BASE)
+        top.line(run.label, rear * np.sqrt(9.81 / BASE), level / (2.0 * BASE))
+        rows.append([run.label, shift * scale, error, rms(seen - heights[1][part])])
     place.points("Martin & Moyce 1952", measured[0] * scale, measured[1])
     top.points("Martin & Moyce 1952", height["tau=t*sqrt(g/a) [-]"], heights[1])
     _, shift, error, miss = rows[-1]
@@ -103,7 +93,7 @@ def _fit(time, z, measured_time, measured_z):
     """Shift [s] to add to the measured times so that the fronts agree best, and the rms left."""
 
     def miss(shift):
-        return _rms(np.interp(measured_time + shift, time, z) - measured_z)
+        return rms(np.interp(measured_time + shift, time, z) - measured_z)
 
     best = minimize_scalar(miss, bounds=(-0.03, 0.03), method="bounded")
     return best.x, best.fun
@@ -122,10 +112,10 @@ def _compare_levels(result, runs):
         for name, run in runs.items():
             time, level = run.gauge(gauge)
             level = np.nan_to_num(level) / HEIGHT
-            figure.line(_label(name, run), time, level)
+            figure.line(run.label, time, level)
             part = data["t [s]"] <= time[-1]
             seen = np.interp(data["t [s]"][part], time, level)
-            errors[name].append(_rms([seen - repeat[part] for repeat in repeats.values()]))
+            errors[name].append(rms([seen - repeat[part] for repeat in repeats.values()]))
             if name == finest:
                 label = f"level at {gauge}, mean of the repeats [H], [s]"
                 mean = np.mean(list(repeats.values()), axis=0)
@@ -135,7 +125,7 @@ def _compare_levels(result, runs):
     result.measure("levels", max(errors[finest]))
     _converge(result, "Levels, mean of four gauges [H]", standard,
               [np.mean(errors[name]) for name in standard])  # fmt: skip
-    rows = [[_label(name, run), *errors[name], np.mean(errors[name])] for name, run in runs.items()]
+    rows = [[run.label, *errors[name], np.mean(errors[name])] for name, run in runs.items()]
     apart = f"experiment, its repeats from each other to {end:.3g} s"
     rows.append([apart, *(_repeat(data, gauge, shown) for gauge in GAUGES), np.nan])
     result.table("Levels: rms difference from the experiment / H", ["run", *GAUGES, "mean"], rows)
@@ -144,7 +134,7 @@ def _compare_levels(result, runs):
 def _repeat(data, gauge, part):
     """Rms difference between the two runs of the experiment at a gauge; NaN if there is one."""
     repeats = [data[name][part] for name in data if name.startswith(gauge)]
-    return _rms(repeats[0] - repeats[1]) if len(repeats) > 1 else np.nan
+    return rms(repeats[0] - repeats[1]) if len(repeats) > 1 else np.nan
 
 
 def _compare_pressure(result, runs):
@@ -160,8 +150,8 @@ def _compare_pressure(result, runs):
     for name, run in runs.items():
         time, pressure = _pressure(run, "P2", band.time)
         late, impulse, inside = band.judge(time, pressure)
-        figure.line(_label(name, run), *_part(time - came - late, pressure))
-        rows.append([_label(name, run), 1e3 * late, impulse, inside])
+        figure.line(run.label, *_part(time - came - late, pressure))
+        rows.append([run.label, 1e3 * late, impulse, inside])
         if name == finest:
             result.measure("arrival", 1e3 * late)
             result.measure("impulse", impulse)
@@ -220,7 +210,7 @@ def _compare_sensors(result, name, run, band, event):
             label = "event 5"
             figure = result.figure(f"Pressure at {probe}, mean over 10 ms, one event", "time [s]",
                                    "p / (rho g H)")  # fmt: skip
-            figure.line(_label(name, run), time, pressure)
+            figure.line(run.label, time, pressure)
             figure.dashed("experiment, event 5", time, measured[: len(time)])
         result.hold(f"pressure at {probe}, mean over 10 ms, against {label} [rho g H], [s]",
                     time, pressure, band.time, measured)  # fmt: skip

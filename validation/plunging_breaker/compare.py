@@ -149,10 +149,6 @@ def _recipes(runs):
     return {recipe: (name, runs[name]) for recipe, name in names.items()}
 
 
-def _label(recipe, run):
-    return f"{recipe}, d0 = {1e3 * run.spacing:.3g} mm"
-
-
 def _compare_water(result, recipes, rows):
     """Scatter of all water, against time."""
     rough = result.figure("Roughness of the velocity", "time [s]", "roughness [m/s]")
@@ -162,7 +158,7 @@ def _compare_water(result, recipes, rows):
         time = np.array([row["time [s]"] for row in rows[name]])
         rough_of = np.array([row["roughness [m/s]"] for row in rows[name]])
         share = 100.0 * np.array([row["isolated_share"] for row in rows[name]])
-        label = _label(recipe, run)
+        label = run.label
         rough.line(label, time, rough_of)
         alone.line(label, time, share)
         part = (time >= BEFORE[0]) & (time <= BEFORE[1])
@@ -197,7 +193,7 @@ def _compare_tips(result, recipes):
                "crest at t [s]", "x [m]"]  # fmt: skip
     title = f"Scatter within {TIP:g} d0 of where the crest of standard breaks, while crests pass"
     result.table(title, columns, [
-        [_label(recipe, recipes[recipe][1]), wave, *tip] for (wave, recipe), tip in tips.items()
+        [recipes[recipe][1].label, wave, *tip] for (wave, recipe), tip in tips.items()
     ])  # fmt: skip
 
 

@@ -20,14 +20,6 @@ def compare(runs):
     return result
 
 
-def _label(name, run):
-    recipe = next((recipe for recipe in ("mps", "paper") if recipe in name), "standard")
-    width = ", 3-D" if run.case["tank"]["width"] else ""
-    seed = run.case["particles"]["seed"]
-    other = f", seed {seed}" if seed else ""
-    return f"{recipe}{width}, d0 = {1e3 * run.spacing:.3g} mm{other}"
-
-
 def _noise(run, start):
     """Standard deviation of the pressure at each probe from a time [s] on, by its name, in per
     cent of the weight of the water over the bed; NaN if the run ended before.
@@ -124,15 +116,15 @@ def _converge(result, boxes):
 def _draw_boxes(result, boxes):
     pressure = result.figure("Pressure on the bed of the box", "time [s]", "p / (rho g h)")
     speed = result.figure("Rms speed in the box", "time [s]", "speed [mm/s]")
-    for name, box in boxes.items():
-        pressure.line(_label(name, box.run), box.time, box.pressure)
-        speed.line(_label(name, box.run), box.time, 1e3 * box.speed)
+    for box in boxes.values():
+        pressure.line(box.run.label, box.time, box.pressure)
+        speed.line(box.run.label, box.time, 1e3 * box.speed)
     pressure.dashed("hydrostatic", [0.0, boxes["box"].time[-1]], [1.0, 1.0])
     run = boxes["box"].run
     probes = result.figure("Pressure at the probes of the box", "time [s]", "p / (rho g h)")
     for probe in run.case["probe"]:
         time, seen = run.pressure(probe["name"])
-        probes.line(_label("box", run) + f", z = {probe['z'] / run.depth:g} h", time,
+        probes.line(run.label + f", z = {probe['z'] / run.depth:g} h", time,
                     seen / _weight(run))  # fmt: skip
         probes.dashed("hydrostatic", [0.0, time[-1]], [1.0 - probe["z"] / run.depth] * 2)
 
@@ -175,8 +167,8 @@ def _compare_tanks(result, tanks):
     result.measure("tank_noise", max(judged.noise.values()))
     result.measure("drift", max(judged.drift.values(), key=abs))
     figure = result.figure("Pressure over the flat part", "p / (rho g h)", "z / h")
-    for name, tank in tanks.items():
-        label = f"{_label(name, tank.run)}, mean by layers"
+    for tank in tanks.values():
+        label = f"{tank.run.label}, mean by layers"
         figure.points(label, tank.pressure / _weight(tank.run), tank.z / tank.run.depth)
     figure.dashed("hydrostatic", [1.0, 0.0], [0.0, 1.0])
     columns = ["run", "rms of the profile [%]", "rms speed [mm/s]",
