@@ -1,11 +1,14 @@
 """``python -m benchmarks.calibrate``: measure the constants of the model on a quiet machine.
 
-Writes machine.toml: what work costs on one rank, how much slower it gets where two runs share the
-machine, what messages cost between two ranks, and whole steps to hold the model against.
+Writes machine.toml: what work costs on one rank, how much slower it gets where a run on each core
+shares the machine, what messages cost between two ranks, and whole steps to hold the model against.
 """
 
 import argparse
+import json
+import os
 from datetime import UTC, datetime
+from pathlib import Path
 
 import numpy as np
 
@@ -21,55 +24,63 @@ PER_WATER = ("neighbours", "operators", "assembly")
 PER_PARTICLE = ("record", "rest")
 
 
-def measure(spacing, steps, turns):
+def measure(job, ranks, cores, turns):
     """Time the runs that the constants follow from, in turn.
+
+    Parameters
+    ----------
+    job : dict
+        Of `benchmarks.program.time_steps`.
+    ranks : list of int
+        1 and 2 are among them.
+    cores : int
+        Runs that share the machine.
+    turns : int
 
     Returns
     -------
-    dict of str to list
-        "one" and "two" ranks, and "shared": one rank beside a second run of its kind; in each what
-        `benchmarks.program.time_steps` returned, an entry a turn.
+    dict of int to list
+        Of each number of ranks what `benchmarks.program.time_steps` returned, an entry a turn.
+    list
+        The same of one rank beside others of its kind, one on each core.
     """
-    changes = {"particles.spacing": spacing, "scheme.settling": 0}  # as the iterations of the model
-    job = {"changes": changes, "warm": 3, "steps": steps}
-    found = {"one": [], "two": [], "shared": []}
+    runs, shared = {n: [] for n in ranks}, []
     for _ in range(turns):
-        found["one"].append(program.result(program.start(1, "time_steps", **job)))
-        found["two"].append(program.result(program.start(2, "time_steps", **job)))
-        both = [program.start(1, "time_steps", **job) for _ in range(2)]
-        found["shared"] += [program.result(process) for process in both]
-    return found
+        for n, found in runs.items():
+            found.append(program.result(program.start(n, "time_steps", **job)))
+        together = [program.start(1, "time_steps", **job) for _ in range(cores)]
+        shared += [program.result(process) for process in together]
+    return runs, shared
 
 
-def work_of(found, coarse, spacing):
+def work_of(runs, coarse, spacing):
     """Seconds of work by phase: a water particle, a row and iteration, or a particle.
 
     Parameters
     ----------
-    found : dict
+    runs : dict
         From `measure`.
     coarse : dict
         From `benchmarks.program.time_coarse`; what is left of the solve goes by rows.
     spacing : float [m]
     """
-    first, tank = found["one"][0], make_tank(spacing)
-    rows = _phase(found["one"], "solve") - coarse_work(coarse, tank, first["iterations"])
+    one, first, tank = runs[1], runs[1][0], make_tank(spacing)
+    rows = _phase(one, "solve") - coarse_work(coarse, tank, first["iterations"])
     work = {
-        **{phase: _phase(found["one"], phase) / first["water"] for phase in PER_WATER},
+        **{phase: _phase(one, phase) / first["water"] for phase in PER_WATER},
         "solve": rows / (first["water"] * first["iterations"]),
         **coarse,
-        **{phase: _phase(found["one"], phase) / first["particles"] for phase in PER_PARTICLE},
+        **{phase: _phase(one, phase) / first["particles"] for phase in PER_PARTICLE},
     }
     share = share_out(tank, 2)
     held = (share.particles + share.ghosts).mean()
-    busy = _phase(found["two"], "ghosts", ("work", "communication"))
-    work["ghosts"] = busy / held / sharing_of(found)
+    work["ghosts"] = _phase(runs[2], "ghosts", ("work", "communication")) / held
     return work
 
 
-def sharing_of(found):
-    """How many times as long a step takes where two runs share the machine, 1 at least."""
-    return max(_step(found["shared"]) / _step(found["one"]), 1.0)
+def sharing_of(runs, shared):
+    """How many times as long a step takes with a run on each core, 1 at least."""
+    return max(_step(shared) / _step(runs[1]), 1.0)
 
 
 def messages_of(timed):
@@ -90,50 +101,101 @@ def _step(runs):
     return float(np.median([np.mean(run["seconds"]) for run in runs]))
 
 
-def text(found, timed, coarse, spacing, provisional):
-    """The file machine.toml."""
-    machine = environment()["machine"]
+def text(constants, measured, cores, provisional):
+    """The file machine.toml.
+
+    Parameters
+    ----------
+    constants : dict
+        ``sharing``, ``work`` and ``message``; see `constants_of`.
+    measured : list of (float, int, list)
+        Spacing [m], ranks, and what `benchmarks.program.time_steps` returned.
+    cores : int
+    provisional : bool
+    """
     lines = [
         "# The constants of benchmarks/model.py, written by `python -m benchmarks.calibrate`:",
-        f"# {machine['cpu']}, {machine['cores']} cores, {datetime.now(UTC):%Y-%m-%d}.",
+        f"# {environment()['machine']['cpu']}, {cores} cores, {datetime.now(UTC):%Y-%m-%d}.",
         "# All in s, but bandwidth in B/s; what of, stands in calibrate.py.",
         "",
         f"provisional = {str(provisional).lower()}",
-        f"sharing = {sharing_of(found):.3g}",
-        *_table("[work]", work_of(found, coarse, spacing)),
-        *_table("[message]", messages_of(timed)),
+        f"cores = {cores}",
+        f"sharing = {constants['sharing']:.3g}",
+        *_table("[work]", constants["work"]),
+        *_table("[message]", constants["message"]),
     ]
-    for ranks, runs in ((1, found["one"]), (2, found["two"])):
+    for spacing, ranks, runs in measured:
         one = {"spacing": spacing, "ranks": ranks, "seconds": _step(runs)}
         lines += _table("[[measured]]", one)
     return "\n".join(lines) + "\n"
+
+
+def constants_of(runs, shared, timed, coarse, spacing):
+    """What the model takes: ``sharing``, ``work`` and ``message``, from what was timed."""
+    return {
+        "sharing": sharing_of(runs, shared),
+        "work": work_of(runs, coarse, spacing),
+        "message": messages_of(timed),
+    }
 
 
 def _table(head, values):
     return ["", head, *(f"{name} = {value:.4g}" for name, value in values.items())]
 
 
-def main(arguments=None):
-    """Run the command line."""
+def _powers_of_two(most):
+    return [2**k for k in range(most.bit_length()) if 2**k <= most]
+
+
+def _also(text):
+    spacing, _, ranks = text.partition(":")
+    return float(spacing), int(ranks)
+
+
+def _parser():
     parser = argparse.ArgumentParser(prog="python -m benchmarks.calibrate", description=__doc__)
     parser.add_argument("--spacing", type=float, default=0.002, metavar="D0", help="[m]")
     parser.add_argument("--steps", type=int, default=12, help="time steps of a run")
     parser.add_argument("--turns", type=int, default=5)
+    parser.add_argument("--also", type=_also, nargs="*", default=[], metavar="D0:RANKS",
+                        help="more steps to hold the model against, timed once")  # fmt: skip
+    parser.add_argument("--file", type=Path, default=HERE / "machine.toml")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="keep all that was measured")
     parser.add_argument("--provisional", action="store_true", help="the machine is not quiet")
+    return parser
+
+
+def main(arguments=None):
+    """Run the command line."""
+    parser = _parser()
     options = parser.parse_args(arguments)
     for name in ("steps", "turns"):
         if getattr(options, name) < 1:
             parser.error(f"--{name} {getattr(options, name)}: must be >= 1")
-    found = measure(options.spacing, options.steps, options.turns)
-    slabs = len(make_tank(options.spacing).water)
+    cores, spacing = max(os.cpu_count(), 2), options.spacing
+    job = {"changes": {"particles.spacing": spacing}, "warm": 3, "steps": options.steps}
+    runs, shared = measure(job, _powers_of_two(cores), cores, options.turns)
+    slabs = len(make_tank(spacing).water)
     timed = program.result(
         program.start(2, "time_messages", slabs=slabs, rows=ROWS, repeats=REPEATS)
     )
     coarse = program.time_coarse(**BAND)
-    file = HERE / "machine.toml"
-    page = text(found, timed, coarse, options.spacing, options.provisional)
-    file.write_text(page, encoding="utf-8")
-    print(file.read_text())
+    measured = [(spacing, ranks, found) for ranks, found in runs.items()]
+
+    def keep():
+        constants = constants_of(runs, shared, timed, coarse, spacing)
+        options.file.write_text(text(constants, measured, cores, options.provisional), "utf-8")
+        if options.json:
+            everything = {**environment(), "shared": shared, "timed": timed, "coarse": coarse,
+                          "measured": measured}  # fmt: skip
+            options.json.write_text(json.dumps(everything, indent=1), "utf-8")
+
+    keep()
+    for spacing_also, ranks in options.also:
+        found = program.run(ranks, {"particles.spacing": spacing_also}, steps=options.steps)
+        measured.append((spacing_also, ranks, [found]))
+        keep()
+    print(options.file.read_text())
 
 
 if __name__ == "__main__":

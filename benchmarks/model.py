@@ -182,7 +182,7 @@ def predict(machine, tank, share):
         groups; and ``messages``.
     """
     cost, alone = machine["work"], len(share.water) == 1
-    slowdown, count = 1.0 if alone else machine["sharing"], iterations(tank.spacing)
+    slowdown, count = _sharing(machine, len(share.water)), iterations(tank.spacing)
     seen = (share.water + share.ghost_water).max()
     counts = {
         "ghosts": 0 if alone else (share.particles + share.ghosts).max(),
@@ -197,6 +197,12 @@ def predict(machine, tank, share):
     step["coarse"] = slowdown * coarse_work(cost, tank, count)
     step["messages"] = _messages(machine["message"], tank, share, count)
     return step
+
+
+def _sharing(machine, ranks):
+    """How much slower the ranks on a machine work: from none alone to all with every core busy."""
+    most = machine["cores"] - 1
+    return 1.0 + (machine["sharing"] - 1.0) * min(ranks - 1, most) / most
 
 
 def coarse_work(cost, tank, count):

@@ -18,6 +18,7 @@ from benchmarks import calibrate, model, program
 
 MACHINE = {
     "provisional": False,
+    "cores": 2,
     "sharing": 1.25,
     "work": {"neighbours": 1e-6, "operators": 2e-6, "assembly": 1e-6, "solve": 1e-7,
              "factor": 3e-10, "substitution": 1e-9, "ghosts": 1e-6, "record": 1e-7, "rest": 1e-7},
@@ -78,13 +79,20 @@ def test_one_rank_costs_what_was_measured_on_one(tank):
                    for p, s in seconds.items()},
         "seconds": [1.06],
     }  # fmt: skip
-    found = {"one": [one], "two": [one], "shared": [one]}
-    machine = {**MACHINE, "work": calibrate.work_of(found, COARSE, SPACING), "sharing": 1.0}
+    work = calibrate.work_of({1: [one], 2: [one]}, COARSE, SPACING)
+    machine = {**MACHINE, "work": work, "sharing": 1.0}
     predicted = model.predict(machine, tank, model.share_out(tank, 1))
     assert predicted.pop("messages") == 0.0
     assert 0.0 < predicted["coarse"] < predicted["solve"]
     predicted["solve"] += predicted.pop("coarse")
     assert predicted == pytest.approx(seconds)
+
+
+def test_ranks_slow_one_another_the_more_the_more_cores_are_busy(tank):
+    share, machine = model.share_out(tank, 1), {**MACHINE, "cores": 5}
+    coarse = [model.predict(machine, tank, model.share_out(tank, n))["coarse"] for n in (3, 5, 8)]
+    alone = model.predict(machine, tank, share)["coarse"]
+    assert coarse == pytest.approx([1.125 * alone, 1.25 * alone, 1.25 * alone])
 
 
 def test_with_more_ranks_work_falls_and_messages_grow(tank):
@@ -193,13 +201,15 @@ def test_what_the_calibration_writes_can_be_read(tank, tmp_path):
         "phases": {p: dict.fromkeys(("work", "communication", "waiting"), 0.5)
                    for p in MACHINE["work"].keys() - COARSE.keys()},
     }  # fmt: skip
-    found = {"one": [one], "two": [one], "shared": [{**one, "seconds": [0.75]}]}
+    runs, shared = {1: [one], 2: [one]}, [{**one, "seconds": [0.75]}]
     timed = {"sum": 1e-5, "exchange": [1e-5, 2e-5]}
+    constants = calibrate.constants_of(runs, shared, timed, COARSE, SPACING)
+    measured = [(SPACING, ranks, found) for ranks, found in runs.items()]
     path = tmp_path / "machine.toml"
-    path.write_text(calibrate.text(found, timed, COARSE, SPACING, provisional=True))
+    path.write_text(calibrate.text(constants, measured, cores=4, provisional=True))
     machine = model.read_machine(path)
     assert machine.keys() == MACHINE.keys()
-    assert (machine["provisional"], machine["sharing"]) == (True, 1.5)
+    assert (machine["provisional"], machine["cores"], machine["sharing"]) == (True, 4, 1.5)
     assert machine["work"].keys() == MACHINE["work"].keys()
     assert {name: machine["work"][name] for name in COARSE} == COARSE
     assert [one["ranks"] for one in machine["measured"]] == [1, 2]
