@@ -1,7 +1,8 @@
 """``python -m benchmarks.calibrate``: measure the constants of the model on a quiet machine.
 
-Writes machine.toml: what work costs on one rank, how much slower it gets where a run on each core
-shares the machine, what messages cost between two ranks, and whole steps to hold the model against.
+Writes machine.toml: what work costs on one rank, how much slower it is on the slowest core where a
+run on each shares the machine, what messages cost between two ranks, and whole steps to hold the
+model against.
 """
 
 import argparse
@@ -41,15 +42,15 @@ def measure(job, ranks, cores, turns):
     -------
     dict of int to list
         Of each number of ranks what `benchmarks.program.time_steps` returned, an entry a turn.
-    list
-        The same of one rank beside others of its kind, one on each core.
+    list of list
+        The same of one rank beside others of its kind, one on each core, a list a turn.
     """
     runs, shared = {n: [] for n in ranks}, []
     for _ in range(turns):
         for n, found in runs.items():
             found.append(program.result(program.start(n, "time_steps", **job)))
         together = [program.start(1, "time_steps", **job) for _ in range(cores)]
-        shared += [program.result(process) for process in together]
+        shared.append([program.result(process) for process in together])
     return runs, shared
 
 
@@ -79,8 +80,12 @@ def work_of(runs, coarse, spacing):
 
 
 def sharing_of(runs, shared):
-    """How many times as long a step takes with a run on each core, 1 at least."""
-    return max(_step(shared) / _step(runs[1]), 1.0)
+    """How many times as long a step takes with a run on each core, 1 at least.
+
+    On the slowest core, for which all ranks wait; the median over the turns.
+    """
+    slowest = [max(np.mean(run["seconds"]) for run in turn) for turn in shared]
+    return max(float(np.median(slowest)) / _step(runs[1]), 1.0)
 
 
 def messages_of(timed):

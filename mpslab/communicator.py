@@ -3,9 +3,22 @@
 import os
 import time
 
-# So many looks at a message that has not come, each a microsecond, before a nap [s].
-PATIENCE = 100
-PAUSE = 2e-5
+# Ranks on this machine; set by the launchers of MPICH and of Open MPI.
+LOCAL_RANKS = ("MPI_LOCALNRANKS", "OMPI_COMM_WORLD_LOCAL_SIZE")
+PAUSE = 2e-5  # s
+
+
+def patience(environment):
+    """Looks at a message that has not come, each a microsecond, before a nap.
+
+    Who naps comes late, and all who wait for him nap in their turn: so not in the common waits of a
+    step.  But who looks keeps a core busy, and where ranks share one the other could not get on.
+    """
+    ranks = next((int(environment[name]) for name in LOCAL_RANKS if name in environment), 1)
+    return 100 if ranks > os.cpu_count() else 30_000
+
+
+PATIENCE = patience(os.environ)
 
 
 class Alone:

@@ -28,34 +28,33 @@ def conjugate_gradient(
     deflation : mpslab.deflation.Deflation, optional
         Takes the smooth part out of the residual; x gets it at the end.
     """
-    dot = system.dot
-    b_norm = math.sqrt(dot(system.right, system.right))
+    q, z, p = np.zeros_like(x), np.empty_like(x), np.zeros_like(x)
+    r = system.right - system.multiply(x, q)
+    b_norm, residual = map(math.sqrt, system.dots((system.right, system.right), (r, r)))
     if b_norm == 0.0:
         x[:] = 0.0
         return SolverReport(0, 0.0, True, replaced)
-    q, z = np.zeros_like(x), np.empty_like(x)
-    r = system.right - system.multiply(x, q)
-    p, rho, iterations = np.zeros_like(x), 1.0, 0
-    residual = math.sqrt(dot(r, r)) / b_norm
-    deflate = deflation is not None and residual > tolerance
+    deflate = deflation is not None and residual > tolerance * b_norm
     if deflate:
         deflation.project(r)
-        residual = math.sqrt(dot(r, r)) / b_norm
+    iterations, beta = 0, 0.0
+    precondition(r, z)
+    rho, square = system.dots((r, z), (r, r))
+    residual = math.sqrt(square) / b_norm
     while residual > tolerance and iterations < max_iterations:
-        precondition(r, z)
-        rho, rho_old = dot(r, z), rho
-        xpay(z, rho / rho_old if iterations else 0.0, p)
+        xpay(z, beta, p)
         system.multiply(p, q)
-        if deflate:
-            deflation.project(q)
-        curvature = dot(p, q)
+        curvature = deflation.project_product(p, q) if deflate else system.dot(p, q)
         if rho == 0.0 or curvature == 0.0:
             break  # no direction is left to go: the run stops, for it did not converge
         alpha = rho / curvature
         axpy(alpha, p, x)
         axpy(-alpha, q, r)
-        residual = math.sqrt(dot(r, r)) / b_norm
         iterations += 1
+        precondition(r, z)
+        rho_old = rho
+        rho, square = system.dots((r, z), (r, r))
+        beta, residual = rho / rho_old, math.sqrt(square) / b_norm
     if deflate:
         deflation.complete(x, system.right - system.multiply(x, q))
     return SolverReport(iterations, residual, residual <= tolerance, replaced)

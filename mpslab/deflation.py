@@ -7,7 +7,7 @@ numbers, Z^T A Z, is small enough for a direct solve in every iteration.
 
 import numpy as np
 
-from mpslab.kernels import coarse
+from mpslab.kernels import coarse, sparse
 
 # What the factor of the band may cost at most: multiply-adds a row, a tenth of a step.
 WORK = 1000
@@ -70,11 +70,26 @@ class Deflation:
         coarse.substitute(self.band, self.inverse, y)
         return y
 
-    def project(self, q):
-        """q = q - A Z (Z^T A Z)^-1 Z^T q, in place: what is left has no sum in any group."""
-        coarse.take_off(
-            self.start, self.member, self.entry, self._solve(q), *self.system.own, q
-        )
+    def project(self, r):
+        """r = r - A Z (Z^T A Z)^-1 Z^T r, in place: what is left has no sum in any group."""
+        self._take_off(self._solve(r), r)
+
+    def project_product(self, p, q):
+        """`project` for q = A p; returns p . q of what is left, and ranks meet but once for both.
+
+        p . A Z y is (Z^T q) . y.
+        """
+        both = np.zeros(self.count + len(self.system.first) - 1)
+        coarse.gather(self.group, q, *self.system.own, both[: self.count])
+        self.system.slab_dots(p, q, both[self.count :])
+        both = self.system.collect(both)
+        sums, y = both[: self.count], both[: self.count].copy()
+        coarse.substitute(self.band, self.inverse, y)
+        self._take_off(y, q)
+        return sum(both[self.count :].tolist()) - sparse.dot(sums, y)
+
+    def _take_off(self, y, q):
+        coarse.take_off(self.start, self.member, self.entry, y, *self.system.own, q)
 
     def complete(self, x, r):
         """x = x + Z (Z^T A Z)^-1 Z^T r, in place: the smooth part for the residual r of x."""

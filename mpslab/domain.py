@@ -154,6 +154,15 @@ class Domain:
         left, right = self.ghosts_of(rank)
         return (slab == left) | (slab == right)
 
+    def within_reach(self, x, radius):
+        """Whether places x [m] may lie within a radius [m] of a particle in this rank's slabs."""
+        slabs = self.slabs
+        begin, end = slabs.lower + np.array([self.begin, self.end]) * slabs.width
+        margin = radius * (1.0 + 1e-9)
+        left = begin - margin if self.begin > 0 else -np.inf
+        right = end + margin if self.end < slabs.count else np.inf
+        return ~((x < left) | (right < x))  # so that what is not a number has its owner
+
     def _beside(self):
         """The ranks that own the slabs on either side."""
         return [r for r in (self.rank - 1, self.rank + 1) if 0 <= r < self.size]

@@ -27,6 +27,7 @@ def settle(flow):
         step.find_surface(flow)
         if turn == 0:
             particles.position += _shake(flow)
+            flow.domain.refresh(particles.position)
         matrices = correction.matrices(particles, flow.neighbors, flow.stencil)
         corrected_shifting.stabilise(
             particles, None, flow.neighbors, flow.stencil, matrices, 0.0, flow.case.scheme

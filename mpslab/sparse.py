@@ -61,10 +61,19 @@ class PressureSystem:
         return int(self.first[self.begin]), int(self.first[self.end])
 
     def dot(self, x, y):
-        """x . y over all ranks, from the sums of the slabs, added in the order of the slabs."""
-        sums = np.zeros(len(self.first) - 1)
-        sparse.slab_dots(x, y, self.first, self.begin, self.end, sums)
-        return self.domain.add(sums) if self.domain else sum(sums.tolist())
+        """x . y over all ranks."""
+        return self.dots((x, y))[0]
+
+    def dots(self, *pairs):
+        """x . y of each pair (x, y) over all ranks, which meet once for all of them."""
+        sums = np.zeros((len(pairs), len(self.first) - 1))
+        for (x, y), into in zip(pairs, sums, strict=True):
+            self.slab_dots(x, y, into)
+        return [sum(row) for row in self.collect(sums).tolist()]
+
+    def slab_dots(self, x, y, out):
+        """out[s] = x . y in each slab of this rank; their sum over s is the same on any ranks."""
+        sparse.slab_dots(x, y, self.first, self.begin, self.end, out)
 
     def refresh(self, x):
         """Give the ghosts' rows of x the values that their owners have."""

@@ -184,10 +184,12 @@ def _predict(flow, dt):
 
 
 def find_neighbors(flow):
-    """The neighbour list of the particles as they are."""
+    """The neighbour list of the particles as they are; of ghosts only those next to the border."""
     radius = max(flow.stencil.radius, flow.laplacian_stencil.radius)
     particles = flow.particles
     active = particles.fluid if flow.extrapolates else particles.carries_pressure
+    if not getattr(flow.solver, "NEEDS_GHOST_ROWS", False):
+        active &= flow.domain.within_reach(particles.position[:, 0], radius)
     flow.neighbors.build(particles.position, radius, flow.stencil.width, active)
 
 

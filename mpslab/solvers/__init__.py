@@ -5,5 +5,6 @@ Each module has one function::
     solve(system, x, tolerance, max_iterations) -> mpslab.sparse.SolverReport
 
 which starts from ``x`` and leaves the solution there, and a flag ``BY_SLAB``: whether it wants
-the rows by slab, as all solvers do that run on many ranks, or in the order of the particles.
+the rows by slab, as all solvers do that run on many ranks, or in the order of the particles.  With
+``NEEDS_GHOST_ROWS = True`` it has the rows of all ghosts, else of those next to the border alone.
 """

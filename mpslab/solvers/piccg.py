@@ -6,6 +6,7 @@ from mpslab.conjugate_gradient import conjugate_gradient
 from mpslab.kernels import coloured
 
 BY_SLAB = True
+NEEDS_GHOST_ROWS = True  # of the slabs beside its own, for its part of the factor
 RED, BLACK = 0, 1
 
 
