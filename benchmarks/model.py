@@ -7,6 +7,7 @@ the tables of docs/parallel.md.
 """
 
 import bisect
+import itertools
 import math
 import tomllib
 from dataclasses import dataclass
@@ -14,8 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import balance, geometry, load_case, pressure
-from mpslab.deflation import group_rows
+from mpslab import balance, deflation, geometry, load_case, pressure
 from mpslab.piston import make_paddle
 from mpslab.rebalance import load
 from mpslab.slabs import WIDTH, make_slabs
@@ -114,9 +114,26 @@ def _groups(slab, up, aside, water):
     # Which cells hold water decides, not how much: one row for each of them will do.
     wet, aside = np.unique(np.column_stack([slab, up]), axis=0), np.unique(aside)
     slab, up = np.repeat(wet, len(aside), axis=0).T
-    cell = np.column_stack([np.tile(aside, len(wet)), up])
-    _, of, half = group_rows(slab, cell, slice(None), water.sum(), lambda item: [item])
-    return np.bincount(of, minlength=len(water)), half
+    cell, merged = np.column_stack([np.tile(aside, len(wet)), up]), 1
+    while True:
+        groups, number = deflation.number_groups([deflation.keys(slab, cell, merged)])
+        half = _half(groups, number)
+        if len(groups) * half**2 <= deflation.WORK * water.sum():
+            return np.bincount(groups // deflation.SIDE**2, minlength=len(water)), half
+        merged *= 2
+
+
+def _half(groups, number):
+    """Most groups from a group to one beside it, above it, or in the next slab."""
+    side, half = deflation.SIDE, 0
+    slab, aside, up = groups // side**2, groups // side % side, groups % side
+    first, count = aside.min(), np.ptp(aside) + 1
+    for step in itertools.product((0, 1), (-1, 0, 1), (-1, 0, 1)):
+        around = first + (aside - first + step[1]) % count
+        beside = ((slab + step[0]) * side + around) * side + up + step[2]
+        at = np.minimum(np.searchsorted(groups, beside), len(groups) - 1)
+        half = max(half, np.max((number[at] - number)[groups[at] == beside], initial=0))
+    return int(half)
 
 
 def iterations(spacing):

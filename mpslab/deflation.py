@@ -9,8 +9,9 @@ import numpy as np
 
 from mpslab.kernels import coarse, sparse
 
-# What the factor of the band may cost at most: multiply-adds a row, a tenth of a step.
-WORK = 1000
+# What the factor of the band may cost at most: multiply-adds a row.  That is a hundredth of a step,
+# but every rank does all of it, on 16 ranks a sixth.
+WORK = 200
 # Cells across the tank in the number of a group; far more than there are.
 SIDE = 1 << 20
 
@@ -33,26 +34,28 @@ class Deflation:
     """
 
     def __init__(self, system):
-        self.system = system
-        slab = np.repeat(np.arange(len(system.first) - 1), np.diff(system.first))
-        begin, end = system.own
-        rows = sum(system.from_all(end - begin))
-        self.group, of, half = group_rows(
-            slab, system.cell, slice(begin, end), rows, system.from_all
-        )
-        self.count = len(of)
-        self._couplings(system)
+        self.system, merged = system, 1
+        while True:
+            self.group, self.count = group_rows(system, merged)
+            rows, half = self._couplings(system)
+            if self.count * half**2 <= WORK * rows:
+                break
+            merged *= 2
         self._factor(half)
 
     def _couplings(self, system):
+        """A Z; returns the rows of all ranks, and half the width of the band of Z^T A Z."""
         most = len(system) + len(system.value)
         self.start = np.zeros(len(system) + 1, np.int32)
         member, entry = np.empty(most, np.int32), np.empty(most)
-        used = coarse.by_group(
-            system.row, system.column, system.value, system.diagonal, self.group, *system.own,
+        begin, end = system.own
+        used, half = coarse.by_group(
+            system.row, system.column, system.value, system.diagonal, self.group, begin, end,
             np.full(self.count, -1, np.int32), self.start, member, entry,
         )  # fmt: skip
         self.member, self.entry = member[:used], entry[:used]
+        rows, halves = zip(*system.from_all((end - begin, half)), strict=True)
+        return sum(rows), max(halves)
 
     def _factor(self, half):
         self.band, self.inverse = np.zeros((self.count, half + 1)), np.empty(self.count)
@@ -96,43 +99,40 @@ class Deflation:
         coarse.spread(self.group, self._solve(r), x)
 
 
-def group_rows(slab, cell, own, rows, from_all):
-    """Group of each row; cells are merged until the factor of the band is cheap.
+def group_rows(system, merged):
+    """Group of each row, (m,) int32, the same numbers on every rank; and how many there are."""
+    slab = np.repeat(np.arange(len(system.first) - 1), np.diff(system.first))
+    key = keys(slab, system.cell, merged)
+    begin, end = system.own
+    groups, number = number_groups(system.from_all(np.unique(key[begin:end])))
+    return number[np.searchsorted(groups, key)], len(groups)
+
+
+def keys(slab, cell, merged):
+    """A number for each slab and cell, (m,) int64.
 
     Parameters
     ----------
     slab : (m,) int
-        Slab of each row.
     cell : (m, 2) int
-        Cell across the tank of each row.
-    own : slice
-        The rows of this rank.
-    rows : int
-        Rows of all ranks.
-    from_all : callable
-        What each rank gives, a list.
-
-    Returns
-    -------
-    group : (m,) int32
-        The same numbers on every rank.
-    of : (groups,) int
-        Slab of each group.
-    half : int
-        Half width of the band of their couplings.
+        Across the tank, and upwards.
+    merged : int
+        Cells that are taken together in either direction.
     """
-    merged = 1
-    while True:
-        part = cell.astype(np.int64) // merged + SIDE // 2
-        key = (slab * SIDE + part[:, 0]) * SIDE + part[:, 1]
-        groups = np.unique(np.concatenate(from_all(np.unique(key[own]))))
-        of = groups // SIDE**2
-        half = _half_width(np.bincount(of))
-        if len(groups) * half**2 <= WORK * rows:
-            return np.searchsorted(groups, key).astype(np.int32), of, half
-        merged *= 2
+    part = cell.astype(np.int64) // merged + SIDE // 2
+    return (slab * SIDE + part[:, 0]) * SIDE + part[:, 1]
 
 
-def _half_width(size):
-    """Of the band, for so many groups in each slab: they meet those of their slab and the next."""
-    return max((size + np.append(size[1:], 0)).max(initial=0) - 1, 0)
+def number_groups(several):
+    """Sorted keys of all groups, and the number of each, (groups,) int32.
+
+    Groups are numbered slab by slab, in a slab layer by layer, and in a layer from both sides by
+    turns, so that across a periodic tank first and last are near: the band is narrow.
+    """
+    groups = np.unique(np.concatenate(several))
+    slab, aside, up = groups // SIDE**2, groups // SIDE % SIDE, groups % SIDE
+    places, aside = np.unique(aside, return_inverse=True)
+    aside = np.minimum(2 * aside, 2 * (len(places) - 1 - aside) + 1)
+    number = np.empty(len(groups), np.int32)
+    number[np.lexsort((aside, up, slab))] = np.arange(len(groups))
+    return groups, number

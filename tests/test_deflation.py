@@ -69,6 +69,17 @@ def test_cells_are_merged_until_the_factor_is_cheap(system, monkeypatch):
     np.testing.assert_allclose(members(made).T @ b, 0.0, atol=1e-12)
 
 
+def test_neighbours_around_a_periodic_tank_are_near_in_the_band():
+    aside, up = np.meshgrid(np.arange(-3, 6), np.arange(4))
+    cell = np.column_stack([aside.ravel(), up.ravel()])
+    groups, number = deflation.number_groups([deflation.keys(np.zeros(36, int), cell, 1)])
+    place = number[np.searchsorted(groups, deflation.keys(np.zeros(36, int), cell, 1))]
+    place = place.reshape(aside.shape)
+    assert sorted(number) == list(range(36))
+    assert np.abs(place - np.roll(place, 1, axis=1)).max() == 2
+    assert np.abs(np.diff(place, axis=0)).max() == 9
+
+
 def test_banded_factor_solves_as_a_dense_one():
     n, half = 40, 6
     rng = np.random.default_rng(9)

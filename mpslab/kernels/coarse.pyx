@@ -15,10 +15,11 @@ def by_group(const int[::1] row, const int[::1] column, const float[::1] value,
     start : (m + 1,) out, begin of each row in `member` and `entry`
     member, entry : out, groups and sums, long enough
 
-    Returns the number of sums.
+    Returns the number of sums, and how many groups there are at most from a row's to one that it is
+    coupled to.
     """
     cdef Py_ssize_t i, k
-    cdef int g, total = 0
+    cdef int g, total = 0, half = 0
     with nogil:
         for i in range(begin, end):
             start[i] = total
@@ -33,9 +34,10 @@ def by_group(const int[::1] row, const int[::1] column, const float[::1] value,
                     member[total] = g
                     entry[total] = 0.0
                     total += 1
+                    half = max(half, g - group[i])
                 entry[place[g]] += value[k]
         start[end] = total
-    return total
+    return total, half
 
 
 def couple(const int[::1] start, const int[::1] member, const double[::1] entry,
