@@ -117,8 +117,10 @@ class Waves:
         self.at_toe = level[crest] - trough
         found = crests(run)
         self.first = Breaker(run, found, FIRST)
-        self.second = Breaker(run, found, SECOND)
-        self.third = Breaker(run, found, THIRD)
+        # What hangs over air on the beach is run-up of the wave before.
+        at_sea = [(time, crest) for time, crest in found if crest.x < BEACH]
+        self.second = Breaker(run, at_sea, SECOND)
+        self.third = Breaker(run, at_sea, THIRD)
 
     @property
     def later(self):
