@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks import program
-from benchmarks.model import HERE, ROW_BYTES, coarse_work, make_tank, share_out
+from benchmarks.model import HERE, ROW_BYTES, coarse_work, make_tank, share_out, slowdown
 from mpslab.provenance import environment
 
 ROWS = (10, 100, 1_000, 10_000, 100_000)  # values in the messages that are timed
@@ -54,7 +54,7 @@ def measure(job, ranks, cores, turns):
     return runs, shared
 
 
-def work_of(runs, coarse, spacing):
+def work_of(runs, coarse, spacing, slowdown=1.0):
     """Seconds of work by phase: a water particle, a row and iteration, or a particle.
 
     Parameters
@@ -64,6 +64,8 @@ def work_of(runs, coarse, spacing):
     coarse : dict
         From `benchmarks.program.time_coarse`; what is left of the solve goes by rows.
     spacing : float [m]
+    slowdown : float
+        Of two ranks against one, for what only two ranks do.
     """
     one, first, tank = runs[1], runs[1][0], make_tank(spacing)
     rows = _phase(one, "solve") - coarse_work(coarse, tank, first["iterations"])
@@ -75,7 +77,7 @@ def work_of(runs, coarse, spacing):
     }
     share = share_out(tank, 2)
     held = (share.particles + share.ghosts).mean()
-    work["ghosts"] = _phase(runs[2], "ghosts", ("work", "communication")) / held
+    work["ghosts"] = _phase(runs[2], "ghosts", ("work", "communication")) / held / slowdown
     return work
 
 
@@ -106,21 +108,21 @@ def _step(runs):
     return float(np.median([np.mean(run["seconds"]) for run in runs]))
 
 
-def text(constants, measured, cores, provisional):
+def text(constants, measured, provisional):
     """The file machine.toml.
 
     Parameters
     ----------
     constants : dict
-        ``sharing``, ``work`` and ``message``; see `constants_of`.
+        See `constants_of`.
     measured : list of (float, int, list)
         Spacing [m], ranks, and what `benchmarks.program.time_steps` returned.
-    cores : int
     provisional : bool
     """
+    cpu, cores = environment()["machine"]["cpu"], constants["cores"]
     lines = [
         "# The constants of benchmarks/model.py, written by `python -m benchmarks.calibrate`:",
-        f"# {environment()['machine']['cpu']}, {cores} cores, {datetime.now(UTC):%Y-%m-%d}.",
+        f"# {cpu}, {cores} cores, {datetime.now(UTC):%Y-%m-%d}.",
         "# All in s, but bandwidth in B/s; what of, stands in calibrate.py.",
         "",
         f"provisional = {str(provisional).lower()}",
@@ -136,10 +138,11 @@ def text(constants, measured, cores, provisional):
 
 
 def constants_of(runs, shared, timed, coarse, spacing):
-    """What the model takes: ``sharing``, ``work`` and ``message``, from what was timed."""
+    """``cores``, ``sharing``, ``work`` and ``message`` of the model, from what was timed."""
+    machine = {"cores": len(shared[0]), "sharing": sharing_of(runs, shared)}
     return {
-        "sharing": sharing_of(runs, shared),
-        "work": work_of(runs, coarse, spacing),
+        **machine,
+        "work": work_of(runs, coarse, spacing, slowdown(machine, 2)),
         "message": messages_of(timed),
     }
 
@@ -148,8 +151,8 @@ def _table(head, values):
     return ["", head, *(f"{name} = {value:.4g}" for name, value in values.items())]
 
 
-def _powers_of_two(most):
-    return [2**k for k in range(most.bit_length()) if 2**k <= most]
+def _ranks_up_to(most):
+    return [*(2**k for k in range(most.bit_length()) if 2**k < most), most]
 
 
 def _also(text):
@@ -179,7 +182,7 @@ def main(arguments=None):
             parser.error(f"--{name} {getattr(options, name)}: must be >= 1")
     cores, spacing = max(os.cpu_count(), 2), options.spacing
     job = {"changes": {"particles.spacing": spacing}, "warm": 3, "steps": options.steps}
-    runs, shared = measure(job, _powers_of_two(cores), cores, options.turns)
+    runs, shared = measure(job, _ranks_up_to(cores), cores, options.turns)
     slabs = len(make_tank(spacing).water)
     timed = program.result(
         program.start(2, "time_messages", slabs=slabs, rows=ROWS, repeats=REPEATS)
@@ -189,7 +192,7 @@ def main(arguments=None):
 
     def keep():
         constants = constants_of(runs, shared, timed, coarse, spacing)
-        options.file.write_text(text(constants, measured, cores, options.provisional), "utf-8")
+        options.file.write_text(text(constants, measured, options.provisional), "utf-8")
         if options.json:
             everything = {**environment(), "shared": shared, "timed": timed, "coarse": coarse,
                           "measured": measured}  # fmt: skip

@@ -199,7 +199,7 @@ def predict(machine, tank, share):
         groups; and ``messages``.
     """
     cost, alone = machine["work"], len(share.water) == 1
-    slowdown, count = _sharing(machine, len(share.water)), iterations(tank.spacing)
+    slower, count = slowdown(machine, len(share.water)), iterations(tank.spacing)
     rows = (share.water + share.ghost_water / WIDTH).max()  # of ghosts within one radius
     counts = {
         "ghosts": 0 if alone else (share.particles + share.ghosts).max(),
@@ -210,13 +210,13 @@ def predict(machine, tank, share):
         "record": share.particles.max(),
         "rest": share.particles.max(),
     }
-    step = {phase: slowdown * cost[phase] * many for phase, many in counts.items()}
-    step["coarse"] = slowdown * coarse_work(cost, tank, count)
+    step = {phase: slower * cost[phase] * many for phase, many in counts.items()}
+    step["coarse"] = slower * coarse_work(cost, tank, count)
     step["messages"] = _messages(machine["message"], tank, share, count)
     return step
 
 
-def _sharing(machine, ranks):
+def slowdown(machine, ranks):
     """How much slower the ranks on a machine work: from none alone to all with every core busy."""
     most = machine["cores"] - 1
     return 1.0 + (machine["sharing"] - 1.0) * min(ranks - 1, most) / most
@@ -289,7 +289,7 @@ def report(machine, tanks, rows):
     if machine["provisional"]:
         lines += ["**Provisional**: the constants are not yet measured on a quiet machine.", ""]
     lines += ["| d0, mm | ranks | measured, s a step | predicted |", "|---|---|---|---|"]
-    for one in machine["measured"]:
+    for one in sorted(machine["measured"], key=lambda one: (-one["spacing"], one["ranks"])):
         tank = make_tank(one["spacing"])
         step = sum(predict(machine, tank, share_out(tank, one["ranks"])).values())
         lines.append(f"| {one['spacing'] * 1e3:g} | {one['ranks']} | {one['seconds']:.3f} "

@@ -8,7 +8,7 @@ LOCAL_RANKS = ("MPI_LOCALNRANKS", "OMPI_COMM_WORLD_LOCAL_SIZE")
 PAUSE = 2e-5  # s
 
 
-def patience(environment):
+def looks_before_nap(environment):
     """Looks at a message that has not come, each a microsecond, before a nap.
 
     Who naps comes late, and all who wait for him nap in their turn: so not in the common waits of a
@@ -18,7 +18,7 @@ def patience(environment):
     return 100 if ranks > os.cpu_count() else 30_000
 
 
-PATIENCE = patience(os.environ)
+LOOKS = looks_before_nap(os.environ)
 
 
 class Alone:
@@ -55,7 +55,7 @@ def finish(requests):
     for request in requests:
         while not request.Test():
             spins += 1
-            os.sched_yield() if spins < PATIENCE else time.sleep(PAUSE)
+            os.sched_yield() if spins < LOOKS else time.sleep(PAUSE)
 
 
 def all_here(comm, patience=5.0):

@@ -51,7 +51,7 @@ def conjugate_gradient(
         axpy(alpha, p, x)
         axpy(-alpha, q, r)
         iterations += 1
-        precondition(r, z)
+        precondition(r, z)  # once more than needed at the end, so that both dots meet at once
         rho_old = rho
         rho, square = system.dots((r, z), (r, r))
         beta, residual = rho / rho_old, math.sqrt(square) / b_norm

@@ -35,7 +35,7 @@ class Deflation:
 
     def __init__(self, system):
         self.system, merged = system, 1
-        while True:
+        while True:  # the width of the band is only known with the couplings
             self.group, self.count = group_rows(system, merged)
             rows, half = self._couplings(system)
             if self.count * half**2 <= WORK * rows:

@@ -205,12 +205,12 @@ def test_what_the_calibration_writes_can_be_read(tank, tmp_path):
         "phases": {p: dict.fromkeys(("work", "communication", "waiting"), 0.5)
                    for p in MACHINE["work"].keys() - COARSE.keys()},
     }  # fmt: skip
-    runs, shared = {1: [one], 2: [one]}, [[one, {**one, "seconds": [0.75]}]]
+    runs, shared = {1: [one], 2: [one]}, [[one, {**one, "seconds": [0.75]}, one, one]]
     timed = {"sum": 1e-5, "exchange": [1e-5, 2e-5]}
     constants = calibrate.constants_of(runs, shared, timed, COARSE, SPACING)
     measured = [(SPACING, ranks, found) for ranks, found in runs.items()]
     path = tmp_path / "machine.toml"
-    path.write_text(calibrate.text(constants, measured, cores=4, provisional=True))
+    path.write_text(calibrate.text(constants, measured, provisional=True))
     machine = model.read_machine(path)
     assert machine.keys() == MACHINE.keys()
     assert (machine["provisional"], machine["cores"], machine["sharing"]) == (True, 4, 1.5)

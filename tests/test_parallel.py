@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from ranks import ROOT, SMALL, TIMEOUT, environment, tank
 
-from mpslab import checkpoint, launch
+from mpslab import checkpoint, communicator, launch
 from mpslab.stopwatch import PHASES
 
 FILES = ("checkpoint.h5", "gauges.csv", "probes.csv", "lost.csv")
@@ -54,6 +54,13 @@ def alone(tmp_path_factory):
     folder = tmp_path_factory.mktemp("alone") / "run"
     finished(*SMALL, *END, "--out", str(folder))
     return folder
+
+
+def test_ranks_that_share_cores_nap_soon():
+    cores = os.cpu_count()
+    alone = communicator.looks_before_nap({})
+    assert communicator.looks_before_nap({"MPI_LOCALNRANKS": str(cores)}) == alone
+    assert communicator.looks_before_nap({"MPI_LOCALNRANKS": str(cores + 1)}) < alone / 100
 
 
 @pytest.mark.parametrize("ranks", [2, 4])

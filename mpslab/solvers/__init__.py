@@ -6,5 +6,6 @@ Each module has one function::
 
 which starts from ``x`` and leaves the solution there, and a flag ``BY_SLAB``: whether it wants
 the rows by slab, as all solvers do that run on many ranks, or in the order of the particles.  With
-``NEEDS_GHOST_ROWS = True`` it has the rows of all ghosts, else of those next to the border alone.
+``NEEDS_GHOST_ROWS = True`` the rows of all ghosts have their couplings, else only those next to the
+border: a solver that takes couplings of ghosts without it depends on the number of ranks.
 """
