@@ -40,8 +40,16 @@ def test_known_misses_name_criteria_that_there_are():
         criteria = {criterion.id: criterion for criterion in suite.load(name).criteria}
         for id_, entry in entries.items():
             assert set(entry["suites"]) <= set(criteria[id_].suites)
-            assert not criteria[id_].met(entry["value"])
+            for which in entry["suites"]:
+                assert not criteria[id_].met(judge.value_of(known, name, id_, which))
             assert entry["cause"]
+
+
+def test_a_known_miss_may_have_a_value_for_each_suite():
+    values = {"made": {"a": {"value": {"quick": 2.0, "full": 1.0}}, "b": {"value": 3.0}}}
+    assert [judge.value_of(values, "made", "a", which) for which in suite.SUITES] == [2.0, 1.0]
+    assert judge.value_of(values, "made", "b", "full") == 3.0
+    assert judge.value_of(values, "made", "c", "full") is None
 
 
 def test_an_unknown_case_is_refused_with_the_nearest():

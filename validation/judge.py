@@ -11,7 +11,10 @@ KNOWN = FOLDER / "known_misses.toml"
 
 
 def known_misses(path=KNOWN):
-    """The list of known misses: by case and criterion, a table with suites, value and cause."""
+    """The list of known misses: by case and criterion, a table with suites, value and cause.
+
+    The value is that of all its suites, or a table of one for each.
+    """
     return tomllib.loads(Path(path).read_text(encoding="utf-8"))
 
 
@@ -19,6 +22,12 @@ def cause_of(known, case, criterion, suite):
     """Why a criterion is known to be missed in a suite; None if it is not."""
     entry = known.get(case, {}).get(criterion)
     return entry["cause"] if entry and suite in entry["suites"] else None
+
+
+def value_of(known, case, criterion, suite):
+    """What is listed as measured in a suite; None if nothing is."""
+    value = known.get(case, {}).get(criterion, {}).get("value")
+    return value.get(suite) if isinstance(value, dict) else value
 
 
 def judge(case, suite, measured, known):
@@ -60,7 +69,7 @@ def _metric(case, suite, criterion, value, known):
         "reason": criterion.reason,
         "noise": criterion.noise,
         "known": cause_of(known, case.name, criterion.id, suite),
-        "listed": known.get(case.name, {}).get(criterion.id, {}).get("value"),
+        "listed": value_of(known, case.name, criterion.id, suite),
     }
 
 
