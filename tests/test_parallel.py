@@ -69,6 +69,8 @@ def test_ranks_leave_the_same_files_as_one(alone, tmp_path, ranks):
     assert text.count("Done:") == 1
     assert f"on {ranks} ranks" in text
     assert_same_results(alone, tmp_path / "run")
+    frames = [(folder / "particles.vtkhdf").read_bytes() for folder in (alone, tmp_path / "run")]
+    assert frames[0] == frames[1]
 
 
 def test_mpiexec_starts_the_same_run(alone, tmp_path):
