@@ -5,7 +5,7 @@ Sums take `total`, which adds (n,) values of the particles: over all ranks it is
 
 import numpy as np
 
-from mpslab.particles import FLUID, PISTON
+from mpslab.particles import FLUID, GATE, PISTON
 
 
 def particle_volume(stencil):
@@ -14,8 +14,8 @@ def particle_volume(stencil):
 
 
 def max_speed(particles):
-    """Largest speed of the fluid and piston particles [m/s]; 0 when there are none."""
-    moving = (particles.kind == FLUID) | (particles.kind == PISTON)
+    """Largest speed of the water, the piston and the gates [m/s]; 0 when there are none."""
+    moving = np.isin(particles.kind, (FLUID, PISTON, GATE))
     square = np.einsum("ij,ij->i", particles.velocity, particles.velocity)
     return float(np.sqrt(square.max(initial=0.0, where=moving)))
 

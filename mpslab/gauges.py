@@ -3,7 +3,7 @@
 import numpy as np
 
 from mpslab.kernels import column
-from mpslab.particles import FLUID, PISTON, WALL
+from mpslab.particles import FLUID, carries_pressure
 
 # The water level is looked for on a vertical line of points, so many to a particle spacing.
 POINTS = 8
@@ -125,7 +125,7 @@ def probe(position, velocity, pressure, kind, spacing, point, width=0.0):
     inside = np.einsum("ij,ij->i", offset, offset) < reach**2
     near, offset = near[inside], offset[inside] / spacing
     wet = kind[near] == FLUID
-    loaded = wet | (kind[near] == WALL) | (kind[near] == PISTON)
+    loaded = carries_pressure(kind[near])
     p = _least_squares(offset[loaded], pressure[near[loaded], None])
     return np.concatenate([p, _least_squares(offset[wet], velocity[near[wet]])])
 

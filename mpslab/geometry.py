@@ -1,4 +1,4 @@
-"""Initial particles of a case: water, bed, end walls, piston, side walls, obstacles.
+"""Initial particles of a case: water, bed, end walls, piston, gates, side walls, obstacles.
 
 The cross-section (x, z) is laid out first and then repeated across the tank.  Water particles
 stand half a spacing off every boundary, wall particles half a spacing behind it.
@@ -8,8 +8,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from mpslab import bed as beds
-from mpslab import obstacles
-from mpslab.particles import DUMMY, FLUID, PISTON, PISTON_DUMMY, WALL, make_particles
+from mpslab import gates, obstacles
+from mpslab.particles import DUMMY, FLUID, GATE, PISTON, PISTON_DUMMY, WALL, make_particles
 
 
 def effective_length(case):
@@ -63,7 +63,7 @@ def build_particles(case, backmost=0.0):
     order = np.lexsort((position[:, 2], cell[:, 1], cell[:, 0]))
     particles = make_particles(position[order], kinds[order])
     _set_hydrostatic(case, particles)
-    if case.obstacle:
+    if case.obstacle or case.gate:
         obstacles.press(case, particles)
     return particles
 
@@ -121,11 +121,13 @@ def _water_section(case):
 
 
 def _box(case, start, end):
-    """Rows of the section for a box of water, less what obstacles take of it, (n, 4) [m]."""
+    """Rows of the section for a box of water, less what solids take of it, (n, 4) [m]."""
     rows, spacing = [np.zeros((0, 4))], case.particles.spacing
     for low, high in obstacles.around(case, start, end):
         sides = [round(low[1] / spacing) * spacing, round(high[1] / spacing) * spacing]
         for x in _columns(case, low[0], min(high[0], effective_length(case))):
+            if gates.holds(case, x):
+                continue
             stack = _stack(case, x, low[2], high[2])
             across = np.broadcast_to(sides, (len(stack), 2))
             rows.append(np.hstack([stack, across]))
@@ -144,7 +146,7 @@ def _disc(case, water):
 
 
 def _solid_section(case, backmost):
-    """Bed, end walls and piston in the cross-section: (n, 2) [m] and kinds (n,)."""
+    """Bed, end walls, piston and gates in the cross-section: (n, 2) [m] and kinds (n,)."""
     layers, spacing = case.particles.layers, case.particles.spacing
     behind = (layers + np.ceil(-backmost / spacing)) * spacing
     build = _staircase if case.particles.bed == "staircase" else _smooth_bed
@@ -153,8 +155,9 @@ def _solid_section(case, backmost):
     right, right_kind = _end_wall(case, floor, 1)
     if case.wavemaker.type != "none":
         left_kind = np.where(left_kind == WALL, PISTON, PISTON_DUMMY)
-    kinds = np.concatenate([floor_kind, left_kind, right_kind])
-    return np.vstack([floor, left, right]), kinds
+    plates = _gates(case, floor)
+    kinds = [floor_kind, left_kind, right_kind, np.full(len(plates), GATE, np.int8)]
+    return np.vstack([floor, left, right, plates]), np.concatenate(kinds)
 
 
 def _smooth_bed(case, behind):
@@ -199,8 +202,21 @@ def _end_wall(case, floor, side):
         rows.append(stack)
         kinds.append(np.full(len(stack), DUMMY if k else WALL, np.int8))
     wall, kind = np.vstack(rows), np.concatenate(kinds)
-    free = cKDTree(floor).query(wall)[0] > beds.CLOSEST * spacing
+    free = _clear(case, wall, floor)
     return wall[free], kind[free]
+
+
+def _gates(case, floor):
+    """Vertical columns of the gates, standing on the bed: (n, 2) [m]."""
+    columns = [x for low, high in gates.faces(case) for x in _columns(case, low, high)]
+    plates = [_stack(case, x, -np.inf, case.tank.height) for x in columns]
+    plates = np.vstack([np.zeros((0, 2)), *plates])
+    return plates[_clear(case, plates, floor)]
+
+
+def _clear(case, section, floor):
+    """Which places of a section do not come too close to the bed's particles, (n,) bool."""
+    return cKDTree(floor).query(section)[0] > beds.CLOSEST * case.particles.spacing
 
 
 def _repeat_across(case, water, solid, kind, backmost):

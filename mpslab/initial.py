@@ -23,6 +23,8 @@ def set_velocity(case, particles, total):
         u, w = standing_wave_velocity(
             x, z, start.amplitude, start.mode, case.tank.length, case.tank.depth, case.fluid.gravity
         )
+    elif start.type == "stream":
+        u, w = start.speed, 0.0
     else:
         u, w = _linear(start.type, start.rate, x, z, lambda v: _mean(v, fluid, total))
     particles.velocity[fluid, 0], particles.velocity[fluid, 2] = u, w

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from mpslab import bed as beds
-from mpslab.particles import DUMMY, WALL
+from mpslab.particles import DUMMY, GATE, WALL
 
 NEAR = 2.0  # spacings: water no further off than this presses on a wall at t = 0
 
@@ -70,10 +70,10 @@ def cover(case, position, kind):
 
 
 def press(case, particles):
-    """Give the obstacles' walls the hydrostatic pressure of the water next to them, in place."""
+    """Give obstacles and gates the hydrostatic pressure of the water next to them, in place."""
     spacing, fluid = case.particles.spacing, np.flatnonzero(particles.fluid)
     wall = (particles.kind == WALL) & _inside(case, particles.position / spacing)
-    rows, position = np.flatnonzero(wall), particles.position
+    rows, position = np.flatnonzero(wall | (particles.kind == GATE)), particles.position
     off, near = cKDTree(position[fluid]).query(position[rows])
     near = fluid[near]
     rise = position[near, 2] - position[rows, 2]

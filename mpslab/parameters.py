@@ -91,13 +91,26 @@ class Obstacle(Box):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Gate:
+    """A plate across the tank, lifted straight up; a few spacings thick, onshore of x."""
+
+    x: float = key("place of the face towards the wavemaker", unit="m", above=0)
+    speed: float = key("speed at which it is lifted", unit="m/s", above=0, high=1e3)
+    opens: float = key("time at which it begins to rise", 0.0, unit="s", low=0)
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Initial:
     """The state at t = 0."""
 
     type: str = key(
-        "water at rest, or with the velocities of a standing wave, a strain or a rotation",
+        "water at rest, or with the velocities of a standing wave, a strain, a rotation or a "
+        "uniform stream along x",
         "rest",
-        choices=("rest", "standing_wave", "strain", "rotation"),
+        choices=("rest", "standing_wave", "strain", "rotation", "stream"),
     )
     amplitude: float = key("amplitude of the standing wave", 0.0, unit="m", low=0)
     mode: int = key("half wavelengths of the standing wave in the tank", 1, low=1)
@@ -108,6 +121,7 @@ class Initial:
         low=-1e6,
         high=1e6,
     )
+    speed: float = key("speed of the stream", 0.0, unit="m/s", low=-1e3, high=1e3)
 
     def __post_init__(self):
         check_table(self)
@@ -324,7 +338,7 @@ TABLES = {
     "parallel": Parallel,
     "output": Output,
 }
-LISTS = {"water": Water, "obstacle": Obstacle, "gauge": Gauge, "probe": Probe}
+LISTS = {"water": Water, "obstacle": Obstacle, "gate": Gate, "gauge": Gauge, "probe": Probe}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -344,6 +358,7 @@ class Case:
     output: Output = field(default_factory=Output)
     water: tuple[Water, ...] = ()
     obstacle: tuple[Obstacle, ...] = ()
+    gate: tuple[Gate, ...] = ()
     gauge: tuple[Gauge, ...] = ()
     probe: tuple[Probe, ...] = ()
 

@@ -6,13 +6,14 @@ from mpslab import plugins
 from mpslab.keys import CaseError, shown
 from mpslab.particles import DUMMY, WALL
 
-ROOM = 3  # spacings that are left between the piston and an obstacle
+ROOM = 3  # spacings that are left between the piston and an obstacle or a gate
 
 
 def make_paddle(case):
     """Motion of a case's wavemaker, None when the tank has a fixed wall.
 
-    Raises ValueError where the wavemaker cannot make its wave, or would run into an obstacle.
+    Raises ValueError where the wavemaker cannot make its wave, or would run into an obstacle or a
+    gate.
     """
     if case.wavemaker.type == "none":
         return None
@@ -20,12 +21,19 @@ def make_paddle(case):
     paddle = maker.make(case.wavemaker, case.tank.depth, case.fluid.gravity, case.time.end)
     reach = paddle.foremost + ROOM * case.particles.spacing
     for i, box in enumerate(case.obstacle):
-        if box.start[0] < reach:
-            raise CaseError(
-                f"obstacle.{i}.from = {shown(box.start)}: must be at x >= {reach:.4g} m, {ROOM} "
-                "spacings ahead of the foremost place of the piston"
-            )
+        _leave_room(f"obstacle.{i}.from", box.start, box.start[0], reach)
+    for i, gate in enumerate(case.gate):
+        _leave_room(f"gate.{i}.x", gate.x, gate.x, reach)
     return paddle
+
+
+def _leave_room(key, value, x, reach):
+    """Refuse the value of a key that puts a solid at x, short of the reach of the piston [m]."""
+    if x < reach:
+        raise CaseError(
+            f"{key} = {shown(value)}: must be at x >= {reach:.4g} m, {ROOM} spacings ahead of the "
+            "foremost place of the piston"
+        )
 
 
 class Piston:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mpslab import balance, breaking, geometry, obstacles, waves
+from mpslab import balance, breaking, gates, geometry, obstacles, waves
 from mpslab import bed as beds
 from mpslab.cases.checks import warnings
 from mpslab.cases.complete import initial_speed
@@ -78,6 +78,7 @@ def _particles(case, particles):
         ("spacing", f"{spacing * 1e3:g} mm, {case.tank.depth / spacing:.3g} over the depth"),
         ("tank in whole spacings", size),
         *_obstacles(case),
+        *_gates(case),
     ]
 
 
@@ -91,6 +92,12 @@ def _obstacles(case):
             if axis != " "
         ]
         yield f"obstacle.{i} in whole spacings", ", ".join(sides)
+
+
+def _gates(case):
+    """Faces of the gates as they are laid out."""
+    for i, (low, high) in enumerate(gates.faces(case)):
+        yield f"gate.{i} in whole spacings", f"x {low:.4g} m to {high:.4g} m"
 
 
 def _face(place, axis):

@@ -5,7 +5,7 @@ from types import ModuleType
 
 import numpy as np
 
-from mpslab import correction, geometry, plugins, pressure, surface, walls
+from mpslab import correction, gates, geometry, plugins, pressure, surface, walls
 from mpslab.domain import Domain
 from mpslab.kernels import density, viscosity
 from mpslab.neighbors import NeighborList
@@ -177,10 +177,16 @@ def _predict(flow, dt):
     """
     particles = flow.particles
     flow.piston.push(particles, flow.time, dt)
+    gates.push(flow.case, particles, flow.time, dt)
     particles.velocity[:, 2] -= flow.case.fluid.gravity * dt * particles.fluid
     if flow.case.scheme.projection == "predicted":
         particles.position += dt * particles.velocity * on_axes(particles.fluid)
-        flow.piston.move(particles, flow.time + dt)
+        _move_solids(flow, dt)
+
+
+def _move_solids(flow, dt):
+    flow.piston.move(flow.particles, flow.time + dt)
+    gates.move(flow.case, flow.particles, flow.time, dt)
 
 
 def find_neighbors(flow):
@@ -273,7 +279,7 @@ def _correct(flow, start, dt):
     moved = start + dt * particles.velocity
     np.copyto(particles.position, moved, where=on_axes(particles.fluid))
     if flow.case.scheme.projection == "start":
-        flow.piston.move(particles, flow.time + dt)
+        _move_solids(flow, dt)
     _stabilise(flow, "corrected", before, dt)
     if flow.stencil.width > 0.0:
         particles.position[:, 1] %= flow.stencil.width

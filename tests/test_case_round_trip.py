@@ -15,7 +15,8 @@ from mpslab.parameters import LISTS, TABLES, Case
 
 def test_every_key_is_written_with_its_unit_and_meaning():
     box = {"from": [0.7, 0.0, 0.0], "to": [0.8, 0.1, 0.1]}
-    text = cases.dumps(cases.load_case("dam_break", {"obstacle": [box]}))
+    gate = {"x": 0.6, "speed": 1.0}
+    text = cases.dumps(cases.load_case("dam_break", {"obstacle": [box], "gate": [gate]}))
     for kind in (*TABLES.values(), *LISTS.values()):
         for item in fields(kind):
             assert re.search(

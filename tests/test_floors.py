@@ -12,7 +12,8 @@ FLOORS = {
     "preflight cases initial provenance diagnostics scatter",
     4: "step timestep settling",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
-    "deflation conjugate_gradient piston geometry correction obstacles",
+    "deflation conjugate_gradient piston geometry correction obstacles "
+    "gates",
     2: "balance communicator domain rebalance",
     1: "particles neighbors stencil sparse slabs parameters keys plugins bed paddle waves breaking "
     "stopwatch files journal memory",

@@ -50,5 +50,18 @@ def test_rate_may_be_negative_but_not_zero():
         water_of("rotation", **{"initial.rate": 0.0})
 
 
+def test_stream_has_its_speed_along_x_which_may_be_negative_but_not_zero():
+    water = water_of("stream", **{"initial.rate": 0.0, "initial.speed": -2.0})
+    np.testing.assert_array_equal(water.velocity, np.tile([-2.0, 0.0, 0.0], (len(water), 1)))
+    with pytest.raises(CaseError, match=r"^initial\.speed = 0\.0: must be other than 0 for"):
+        water_of("stream")
+
+
+def test_stream_without_weight_chooses_its_time_step_by_its_speed():
+    changes = {"initial.type": "stream", "initial.speed": -2.0, "fluid.gravity": 0.0}
+    case = make_case(changes)
+    assert case.time.maximum == pytest.approx(0.2 * case.particles.spacing / 2.0)
+
+
 def test_water_at_rest_has_no_velocity():
     assert np.all(water_of("rest").velocity == 0.0)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from mpslab import bed as beds
-from mpslab import geometry, obstacles, plugins
+from mpslab import gates, geometry, obstacles, plugins
 from mpslab.cases.complete import largest_dt
 from mpslab.keys import CaseError, require_choice, shown, toml_name
 from mpslab.parameters import Case
@@ -35,6 +35,7 @@ def check(case: Case) -> None:
     _check_width(case)
     _check_water(case)
     _check_obstacles(case)
+    _check_gates(case)
     _check_motion(case)
     _check_gravity(case)
     _check_time(case)
@@ -219,6 +220,25 @@ def _check_obstacles(case):
     )
 
 
+def _check_gates(case):
+    faces, spacing = gates.faces(case), case.particles.spacing
+    slack = 1e-6 * spacing
+    for i, (low, high) in enumerate(faces):
+        most = geometry.effective_length(case) - (obstacles.least_thickness(case) + 1) * spacing
+        x = case.gate[i].x
+        inside = spacing - slack <= low <= most + slack
+        rule = f"from {spacing:g} to {most:g} m, for a gate {high - low:g} m thick"
+        _require(inside, f"gate.{i}.x", x, rule)
+        for j, (other, end) in enumerate(faces[:i]):
+            apart = low >= end + spacing - slack or other >= high + spacing - slack
+            rule = f"a spacing or more off gate.{j}, which reaches from {other:g} to {end:g} m"
+            _require(apart, f"gate.{i}.x", x, rule)
+        for j, (start, end) in enumerate(obstacles.blocks(case) * spacing):
+            apart = low >= end[0] - slack or start[0] >= high - slack
+            rule = f"outside of obstacle.{j}, which a gate cannot pass"
+            _require(apart, f"gate.{i}.x", x, rule)
+
+
 def _check_motion(case):
     maker, initial, tank = case.wavemaker, case.initial, case.tank
     _require(
@@ -242,6 +262,12 @@ def _check_motion(case):
         "initial.rate",
         initial.rate,
         f"other than 0 for initial.type = {initial.type!r}",
+    )
+    _require(
+        initial.speed != 0.0 or initial.type != "stream",
+        "initial.speed",
+        initial.speed,
+        "other than 0 for initial.type = 'stream'",
     )
 
 

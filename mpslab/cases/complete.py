@@ -43,7 +43,12 @@ def largest_dt(case: Case) -> float:
 
 
 def initial_speed(case: Case) -> float:
-    """Speed that `initial.rate` gives a corner of the water, 0 without a rate [m/s]."""
+    """Speed of a stream, or the one that `initial.rate` gives a corner of the water [m/s].
+
+    0 where the water has neither.
+    """
+    if case.initial.type == "stream":
+        return abs(case.initial.speed)
     if case.initial.type not in ("strain", "rotation"):
         return 0.0
     tank = case.tank

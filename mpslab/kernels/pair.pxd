@@ -8,10 +8,11 @@ cdef enum:
     DUMMY = 2
     PISTON = 3
     PISTON_DUMMY = 4
+    GATE = 5
 
 
 cdef inline bint has_pressure(signed char kind) noexcept nogil:
-    """Fluid, wall and piston particles carry a pressure; the layers behind walls do not."""
+    """Fluid, wall, piston and gate particles carry a pressure; layers behind walls do not."""
     return kind != DUMMY and kind != PISTON_DUMMY
 
 
