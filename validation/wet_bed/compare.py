@@ -8,6 +8,7 @@ from scipy.spatial import cKDTree
 from mpslab.overturning import find_crest
 from mpslab.particles import FLUID
 from validation.comparison import Comparison
+from validation.data import foremost
 
 DATA = Path(__file__).parent / "data" / "spheric5_janosi_d38mm_profiles.csv"
 STILL = 0.038  # [m] level of the layer
@@ -15,6 +16,7 @@ FAR = (0.25, 0.20, 0.15, 0.10)  # [m] at the end of a profile, tried in turn: un
 FLAT = 0.004  # [m] between the highest and the lowest point there; the film has 1 to 3 mm
 STEP = 0.002  # [m] between points along a profile of the film; it is read every 10 mm
 RAISED = 0.010  # [m] above the still level: disturbed
+COMPANY = 3  # others within two spacings, without which a particle is spray
 TURNED = 0.010  # [m] that a profile turns back: it overhangs
 JET_FROM = 0.4  # [s] on: what overhangs in the film is the front; before, the back of the head
 NEAR = 0.1  # [m] between the overhangs of film and simulation
@@ -68,13 +70,16 @@ class _Match:
 
     def __init__(self, name, run, film):
         self.name, self.run, self.film = name, run, film
-        surfaces = [(time, _surface(frame, run.spacing)) for time, frame in run.frames()]
-        self._moments, self._surfaces = np.array([s[0] for s in surfaces]), [s[1] for s in surfaces]
+        frames = [(time, _surface(frame, run.spacing), _front(frame, run.spacing))
+                  for time, frame in run.frames()]  # fmt: skip
+        moments, self._surfaces, fronts = zip(*frames, strict=True)
+        self._moments, self._fronts = np.array(moments), np.array(fronts)
         step = run.case["output"]["interval"]
         shifts = step * np.arange(round(LATEST / step), round(EARLIEST / step) + 1)
         self.shift = min(shifts, key=lambda shift: np.mean(np.square(self._apart(shift))))
         self.distances = self._apart(self.shift)
-        self.ahead = [_foremost(self.surface(time)) - _foremost(film[time]) for time in self.times]
+        self.ahead = [self._fronts[self._next_to(time - self.shift)] - _foremost(film[time])
+                      for time in self.times]  # fmt: skip
         self._crests = [self._crest(time) for time in self.times]
 
     @property
@@ -98,7 +103,7 @@ class _Match:
 
     def front(self):
         """Time of the film [s] and place of the front [m] of the simulation, (n,) each."""
-        return self._moments + self.shift, np.array(list(map(_foremost, self._surfaces)))
+        return self._moments + self.shift, self._fronts
 
     def rows(self):
         """Lines of the table, one a frame."""
@@ -119,7 +124,11 @@ class _Match:
 
     def _surface_of(self, time):
         """Surface of the frame next to a time of the run [s]."""
-        return self._surfaces[np.argmin(np.abs(self._moments - time))]
+        return self._surfaces[self._next_to(time)]
+
+    def _next_to(self, time):
+        """Number of the frame next to a time of the run [s]."""
+        return np.argmin(np.abs(self._moments - time))
 
     def _times(self, shift):
         last = self.run.case["time"]["end"]
@@ -189,10 +198,16 @@ def _line(profile):
     return np.column_stack([np.interp(places, along, column) for column in profile.T])
 
 
-def _foremost(surface):
-    """x [m] of the foremost point that is clearly above the still level."""
-    raised = surface[surface[:, 1] > STILL + RAISED, 0]
-    return raised.max() if len(raised) else np.nan
+def _foremost(profile):
+    """x [m] of the foremost point of a film's profile that is clearly above the still level."""
+    return profile[profile[:, 1] > STILL + RAISED, 0].max()
+
+
+def _front(frame, spacing):
+    """x [m] of the foremost water clearly above the still level, spray left out; NaN for none."""
+    x = frame["position"][frame["kind"] == FLUID].astype(float)
+    front = foremost(x[x[:, 2] + 0.5 * spacing > STILL + RAISED], spacing, COMPANY)
+    return front if np.isfinite(front) else np.nan
 
 
 def _hold_front(result, match):
