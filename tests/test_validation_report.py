@@ -27,7 +27,7 @@ def text_of(page):
 def test_verdict_counts_and_misses_stand_first(page):
     text = text_of(page)
     assert "6 of 9 criteria met" in text
-    assert "3 missed: 1 with a known cause, 2 without." in text
+    assert "3 missed: 1 listed with what is known of the cause, 2 not listed." in text
     places = [text.index(word) for word in ("Time of the first jet", "RMSE of the level",
                                             "First mode kept", "All criteria")]  # fmt: skip
     assert places[0] < places[1] < places[3] < places[2]

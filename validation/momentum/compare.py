@@ -74,16 +74,14 @@ def _blob(name, random):
 
 
 def _compare_drop(result, runs):
-    figure = result.figure("Semi-axes of the drop", "rate x time", "semi-axis / radius at rest")
     drops = {name: _Drop(run) for name, run in runs.items()}
-    for name, drop in drops.items():
-        recipe = name if name in OTHERS else "standard"
-        label = f"{recipe}, d0 = {1e3 * drop.spacing:.3g} mm"
-        figure.line(f"{label}, along x", drop.time, drop.long)
-        figure.line(f"{label}, along z", drop.time, drop.short)
     time = drops["drop-2mm"].time
-    for axis in _ellipse(time):
-        figure.dashed("theory", time, axis)
+    for axis, exact in zip(("long", "short"), _ellipse(time), strict=True):
+        title = f"{axis.capitalize()} semi-axis of the drop"
+        figure = result.figure(title, "rate x time", "semi-axis / radius at rest")
+        for name, drop in drops.items():
+            figure.line(runs[name].label, drop.time, getattr(drop, axis))
+        figure.dashed("theory", time, exact)
     columns = ["run", "worst semi-axis [%]", "energy [%]", "linear momentum", "angular momentum"]
     result.table("Elongating drop at rate x time = 1 (momentum over sum of m |u|, m |r| |u|)",
                  columns, [[name, *drop.figures()] for name, drop in drops.items()])  # fmt: skip
