@@ -5,9 +5,9 @@ from types import ModuleType
 
 import numpy as np
 
-from mpslab import correction, gates, geometry, plugins, pressure, surface, walls
+from mpslab import correction, friction, gates, geometry, plugins, pressure, surface, walls
 from mpslab.domain import Domain
-from mpslab.kernels import density, viscosity
+from mpslab.kernels import density
 from mpslab.neighbors import NeighborList
 from mpslab.particles import ParticleSet, on_axes
 from mpslab.piston import Piston
@@ -66,7 +66,8 @@ class Flow:
     def needs_correction(self):
         """Whether a model works with the correction matrices."""
         models = (self.gradient, self.source, *self.stabilisers)
-        return any(getattr(model, "NEEDS_CORRECTION", False) for model in models)
+        wanted = any(getattr(model, "NEEDS_CORRECTION", False) for model in models)
+        return wanted or self.case.scheme.smagorinsky > 0.0
 
 
 def make_flow(case, particles, piston, width, comm=None):
@@ -201,16 +202,13 @@ def find_neighbors(flow):
 
 def _add_viscosity(flow, dt):
     """u* = u' + nu <lap u> dt; its share of r* is of second order in dt and left out."""
-    particles, case = flow.particles, flow.case
-    if case.fluid.viscosity == 0.0:
+    fluid, scheme = flow.case.fluid, flow.case.scheme
+    if fluid.viscosity == scheme.smagorinsky == 0.0:
         return
-    acceleration = np.zeros_like(particles.velocity)
-    viscosity.viscous_acceleration(
-        particles.position, particles.velocity, particles.kind, flow.neighbors.indptr,
-        flow.neighbors.indices, flow.laplacian_stencil, case.fluid.viscosity,
-        case.scheme.wall_slip, acceleration,
+    flow.particles.velocity += dt * friction.acceleration(
+        flow.particles, flow.neighbors, (flow.stencil, flow.laplacian_stencil), flow.correction,
+        fluid, scheme, flow.domain.refresh,
     )  # fmt: skip
-    particles.velocity += dt * acceleration
 
 
 def find_surface(flow):

@@ -16,7 +16,8 @@ WINDOW = 0.5  # seconds from the impact on
 MEAN = 0.01  # seconds over which pressures are averaged
 COMPANY = 3  # others within two spacings, without which a particle is spray
 GAUGES = ("H1", "H2", "H3", "H4")
-RECIPES = ("mps", "paper")  # runs of these names; the others are of `standard`
+SENSORS = ("P1", "P2", "P3", "P4")
+BESIDE = ("mps", "paper", "lobovsky-smooth")  # not judged; the others are of `standard`
 
 
 def compare(runs):
@@ -37,8 +38,13 @@ def _from_coarse_to_fine(runs):
 
 def _standard(runs):
     """The 2-D runs of the recipe `standard` by name, the finest last."""
-    flat = {n: r for n, r in runs.items() if n not in RECIPES and r.case["tank"]["width"] == 0.0}
+    flat = {n: r for n, r in runs.items() if n not in BESIDE and r.case["tank"]["width"] == 0.0}
     return _from_coarse_to_fine(flat)
+
+
+def _label(run):
+    """Recipe, spacing, and whether walls have no friction."""
+    return run.label + (", no friction" if run.case["scheme"]["wall_slip"] else "")
 
 
 def _converge(result, title, runs, errors):
@@ -112,7 +118,7 @@ def _compare_levels(result, runs):
         for name, run in runs.items():
             time, level = run.gauge(gauge)
             level = np.nan_to_num(level) / HEIGHT
-            figure.line(run.label, time, level)
+            figure.line(_label(run), time, level)
             part = data["t [s]"] <= time[-1]
             seen = np.interp(data["t [s]"][part], time, level)
             errors[name].append(rms([seen - repeat[part] for repeat in repeats.values()]))
@@ -125,7 +131,7 @@ def _compare_levels(result, runs):
     result.measure("levels", max(errors[finest]))
     _converge(result, "Levels, mean of four gauges [H]", standard,
               [np.mean(errors[name]) for name in standard])  # fmt: skip
-    rows = [[run.label, *errors[name], np.mean(errors[name])] for name, run in runs.items()]
+    rows = [[_label(run), *errors[name], np.mean(errors[name])] for name, run in runs.items()]
     apart = f"experiment, its repeats from each other to {end:.3g} s"
     rows.append([apart, *(_repeat(data, gauge, shown) for gauge in GAUGES), np.nan])
     result.table("Levels: rms difference from the experiment / H", ["run", *GAUGES, "mean"], rows)
@@ -150,8 +156,8 @@ def _compare_pressure(result, runs):
     for name, run in runs.items():
         time, pressure = _pressure(run, "P2", band.time)
         late, impulse, inside = band.judge(time, pressure)
-        figure.line(run.label, *_part(time - came - late, pressure))
-        rows.append([run.label, 1e3 * late, impulse, inside])
+        figure.line(_label(run), *_part(time - came - late, pressure))
+        rows.append([_label(run), 1e3 * late, impulse, inside])
         if name == finest:
             result.measure("arrival", 1e3 * late)
             result.measure("impulse", impulse)
@@ -162,6 +168,7 @@ def _compare_pressure(result, runs):
     columns = ["run", "impact after the median's [ms]", "impulse over the median's", "share inside"]
     result.table("Pressure at sensor 2", columns, rows)
     _compare_sensors(result, finest, runs[finest], band, event)
+    _compare_impulses(result, finest, runs, band, event)
 
 
 class _Band:
@@ -201,7 +208,7 @@ class _Band:
 
 def _compare_sensors(result, name, run, band, event):
     """Pressures of a run at four heights: at P2 against the median, else against one event."""
-    for probe in ("P1", "P2", "P3", "P4"):
+    for probe in SENSORS:
         time, pressure = _pressure(run, probe, band.time)
         measured = _mean(band.time, _column(event, probe.lower() + "_"))
         if probe == "P2":
@@ -210,10 +217,40 @@ def _compare_sensors(result, name, run, band, event):
             label = "event 5"
             figure = result.figure(f"Pressure at {probe}, mean over 10 ms, one event", "time [s]",
                                    "p / (rho g H)")  # fmt: skip
-            figure.line(run.label, time, pressure)
+            figure.line(_label(run), time, pressure)
             figure.dashed("experiment, event 5", time, measured[: len(time)])
         result.hold(f"pressure at {probe}, mean over 10 ms, against {label} [rho g H], [s]",
                     time, pressure, band.time, measured)  # fmt: skip
+
+
+def _compare_impulses(result, finest, runs, band, event):
+    """Impulses at the four sensors, and on the wall up to the highest, over those of event 5."""
+    measured = [_mean(band.time, _column(event, probe.lower() + "_")) for probe in SENSORS]
+    rows = []
+    for name, run in runs.items():
+        seen = [_pressure(run, probe, band.time) for probe in SENSORS]
+        pairs = [(_impulse(*mine), _impulse(band.time, theirs))
+                 for mine, theirs in zip(seen, measured, strict=True)]  # fmt: skip
+        ours, theirs = np.transpose(pairs)
+        height = [probe["z"] for probe in run.case["probe"] if probe["name"] in SENSORS]
+        wall = _along(height, ours) / _along(height, theirs)
+        rows.append([_label(run), *(ours / theirs), wall])
+        if name == finest:
+            result.measure("wall", wall)
+    title = f"Impulses over {WINDOW:g} s from the impact, over those of event 5"
+    result.table(title, ["run", *SENSORS, "wall up to P4"], rows)
+
+
+def _impulse(time, pressure):
+    """Integral of a pressure over the window from its rise on."""
+    came = _arrival(time, pressure)
+    window = (time >= came) & (time <= came + WINDOW)
+    return np.trapezoid(pressure[window], time[window])
+
+
+def _along(height, value):
+    """Integral along the wall from its foot to the highest sensor, of values at their heights."""
+    return np.trapezoid([value[0], *value], [0.0, *height])
 
 
 def _pressure(run, probe, time):

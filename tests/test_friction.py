@@ -1,0 +1,146 @@
+"""Friction of the water: strain rate, eddy viscosity, and what walls do to it."""
+
+import numpy as np
+import pytest
+from ranks import start
+from tanks import cloud, inside, lattice, make_case, matrices_of, neighbors_of
+
+from mpslab import friction
+from mpslab.kernels import viscosity
+from mpslab.keys import CaseError
+from mpslab.parameters import Fluid, Scheme
+from mpslab.particles import FLUID, WALL, make_particles
+from mpslab.simulation import Simulation
+from mpslab.stencil import make_stencil
+
+RATE, CONSTANT = 3.0, 0.2
+LINEAR = {
+    "shear": ([[0, 0, RATE], [0, 0, 0], [0, 0, 0]], RATE),
+    "strain": ([[RATE, 0, 0], [0, 0, 0], [0, 0, -RATE]], 2.0 * RATE),
+    "rotation": ([[0, 0, RATE], [0, 0, 0], [-RATE, 0, 0]], 0.0),
+}
+
+
+def strain_rate(position, velocity, dim, kind=None, slip=True):
+    kind = np.zeros(len(position), np.int8) if kind is None else np.asarray(kind, np.int8)
+    stencil = make_stencil(dim, 1.0, 2.1)
+    found = neighbors_of(position, stencil.radius)
+    c = matrices_of(position, kind, found, stencil)
+    out = np.full(len(position), np.nan)
+    viscosity.strain_rate(
+        position, velocity, kind, found.indptr, found.indices, stencil, c, slip, out
+    )
+    return out
+
+
+def acceleration(position, velocity, dim, nu=0.0, slip=True, kind=FLUID):
+    particles = make_particles(position, np.broadcast_to(kind, len(position)))
+    particles.velocity[:] = velocity
+    stencil = make_stencil(dim, 1.0, 2.1)
+    found = neighbors_of(particles.position, stencil.radius)
+    c = matrices_of(particles.position, particles.kind, found, stencil)
+    scheme = Scheme(smagorinsky=CONSTANT, wall_slip=slip)
+    return friction.acceleration(
+        particles, found, (stencil, stencil), c, Fluid(viscosity=nu), scheme, lambda _: None
+    )
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("flow", LINEAR)
+def test_strain_rate_of_linear_flow_is_exact_in_disorder(flow, dim):
+    matrix, exact = LINEAR[flow]
+    position = cloud(dim, 9**dim, 1, jitter=0.2)
+    found = strain_rate(position, position @ np.transpose(np.array(matrix, float)), dim)
+    np.testing.assert_allclose(found[inside(position, 1.5)], exact, atol=1e-12)
+
+
+def test_strain_rate_sees_the_wall_only_without_slip():
+    position = lattice(2, 5)
+    kind = np.where(position[:, 2] < 0.0, WALL, FLUID)
+    velocity = np.zeros_like(position)
+    velocity[kind == FLUID, 0] = 2.0
+    at_wall = (position[:, 2] == 0.0) & (np.abs(position[:, 0]) < 2.0)
+    assert np.all(strain_rate(position, velocity, 2, kind, slip=True)[at_wall] < 1e-12)
+    assert np.all(strain_rate(position, velocity, 2, kind, slip=False)[at_wall] > 0.5)
+    assert np.all(strain_rate(position, velocity, 2, kind, slip=False)[kind == WALL] == 0.0)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_eddy_viscosity_of_uniform_shear_acts_as_a_viscosity_of_its_size(dim):
+    """u = R z + e z^2, whose |S| is R + 2 e z: the force is d/dz of C^2 |S|^2."""
+    position = lattice(dim, 6)
+    velocity = np.zeros_like(position)
+    velocity[:, 0] = RATE * position[:, 2] + 1e-4 * position[:, 2] ** 2
+    found = acceleration(position, velocity, dim)[inside(position, 1)]
+    exact = CONSTANT**2 * 2e-4 * 2.0 * RATE  # at z = 0
+    np.testing.assert_allclose(found[:, 0], exact, rtol=1e-3)
+    np.testing.assert_allclose(found[:, 1:], 0.0, atol=1e-12)
+
+
+def test_molecular_and_eddy_viscosity_add_up():
+    position = cloud(2, 400, 4, jitter=0.2)
+    velocity = np.random.default_rng(5).normal(size=position.shape) * [1, 0, 1]
+    both, eddy = (acceleration(position, velocity, 2, nu) for nu in (0.3, 0.0))
+    kind, out = np.zeros(len(position), np.int8), np.zeros_like(position)
+    stencil = make_stencil(2, 1.0, 2.1)
+    found = neighbors_of(position, stencil.radius)
+    viscosity.viscous_acceleration(
+        position, velocity, kind, found.indptr, found.indices, stencil, 0.3, True, out
+    )
+    np.testing.assert_allclose(both, eddy + out, atol=1e-12)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_eddies_keep_momentum_and_lose_energy(dim):
+    position = cloud(dim, 500, 1, jitter=0.3)
+    velocity = np.random.default_rng(2).normal(size=position.shape)
+    velocity[:, 1] *= dim - 2
+    found = acceleration(position, velocity, dim)
+    assert np.linalg.norm(found.sum(axis=0)) < 1e-13 * np.linalg.norm(found, axis=1).sum()
+    assert np.sum(found * velocity) < 0.0
+
+
+def test_walls_brake_the_water_by_its_own_eddies():
+    position = lattice(2, 5)
+    kind = np.where(position[:, 2] < 0.0, WALL, FLUID)
+    velocity = np.zeros_like(position)
+    velocity[kind == FLUID, 0] = 2.0
+    at_wall = (position[:, 2] == 0.0) & (np.abs(position[:, 0]) < 2.0)
+    assert np.all(acceleration(position, velocity, 2, slip=True, kind=kind)[at_wall] == 0.0)
+    rough = acceleration(position, velocity, 2, slip=False, kind=kind)
+    assert np.all(rough[at_wall, 0] < 0.0)
+    assert np.all(rough[kind == WALL] == 0.0)
+
+
+STREAM = {
+    "tank.length": 0.06, "fluid.gravity": 0.0, "fluid.viscosity": 0.0, "initial.type": "stream",
+    "initial.speed": 0.5, "water": [{"from": [0.0, 0, 0], "to": [0.04, 0, 0.01]}],
+    "particles.jitter": 0.1,
+}  # fmt: skip
+
+
+def test_stream_is_slowed_by_a_bed_with_friction_and_by_no_other():
+    speed = {}
+    for name, changes in {
+        "slip": {"scheme.smagorinsky": 0.12},
+        "none": {"scheme.wall_slip": False},
+        "rough": {"scheme.smagorinsky": 0.12, "scheme.wall_slip": False},
+    }.items():
+        p = Simulation(make_case({**STREAM, **changes})).run(until=0.02).particles
+        low = p.fluid & (p.position[:, 2] < 0.002)
+        speed[name] = p.velocity[low, 0].mean()
+    assert speed["rough"] < 0.98 * speed["none"]
+    assert speed["slip"] == pytest.approx(speed["none"], rel=0.01)
+
+
+def test_ranks_give_the_same_bits_with_eddies_as_one():
+    """A column that collapses."""
+    changes = {"tank.length": 0.06, "water": [{"from": [0.0, 0, 0], "to": [0.03, 0, 0.03]}],
+               "scheme.smagorinsky": 0.12, "scheme.wall_slip": False}  # fmt: skip
+    assert start("steps", 2, changes, 60, 4e-4) == start("steps", 1, changes, 60, 4e-4)
+
+
+@pytest.mark.parametrize("value", [-0.1, 1.5])
+def test_constant_out_of_range_is_refused(value):
+    with pytest.raises(CaseError, match=r"^scheme\.smagorinsky = .*: must be "):
+        make_case({"scheme.smagorinsky": value})
