@@ -233,7 +233,7 @@ class Scheme:
     clip_pressure: bool = key("set negative pressure to zero", True)
     wall_slip: bool = key("leave walls out of the viscous term", True)
     smagorinsky: float = key(
-        "constant C_s of an eddy viscosity (C_s spacing)^2 |S|; 0 for none", 0.0, low=0, high=1
+        "constant C_s of an eddy viscosity (C_s spacing)^2 |S|; 0 for none", 0.0, low=0, high=0.5
     )
 
     def __post_init__(self):

@@ -12,6 +12,7 @@ from validation import __main__ as command
 from validation import judge, result, suite
 from validation.comparison import Comparison
 from validation.data import foremost, read_columns
+from validation.jet import compare as jet
 from validation.suite import Criterion, PlannedRun
 from validation.wave_analysis import decay, harmonics
 from validation.work import Outcome, Task, Work, fingerprint
@@ -214,6 +215,15 @@ def test_spray_is_not_the_foremost_water():
     assert foremost(row, 1.0, others=1) == 2.5
     assert foremost(row, 1.0, others=2) == 1.0
     assert foremost(row[:0], 1.0, others=0) == -np.inf
+
+
+def test_pressure_of_a_stream_on_a_wall_adds_up_to_its_momentum():
+    """rho U^2 h, which is 2 in units of rho U^2/2 and h; highest at the foot."""
+    height = np.linspace(0.0, 15.0, 3001)
+    pressure = jet.theory(height)
+    assert pressure[0] == pytest.approx(1.0)
+    assert np.all(np.diff(pressure) < 0.0)
+    assert np.trapezoid(pressure, height) == pytest.approx(2.0, abs=1e-4)
 
 
 def test_columns_of_measurements_go_by_their_headings(tmp_path):
