@@ -9,7 +9,7 @@ import numpy as np
 
 from mpslab import bed as beds
 from mpslab.obstacles import least_thickness
-from mpslab.particles import GATE
+from mpslab.particles import GATE, GATE_DUMMY
 
 
 def faces(case):
@@ -44,16 +44,16 @@ def move(case, particles, time, dt):
 
 
 def _lifted(case, time):
-    """Height of the lower edges above the bed [m], (k,)."""
+    """Rise of each gate since the start [m], (k,)."""
     speed = np.array([gate.speed for gate in case.gate])
     opens = np.array([gate.opens for gate in case.gate])
-    foot = beds.elevation(case.tank.bed, faces(case)).min(axis=1)
+    foot = np.array([beds.lowest(case.tank.bed, *sides) for sides in faces(case)])
     return np.clip(speed * (time - opens), 0.0, case.tank.height - foot)
 
 
 def _find(case, particles):
     """Rows of the particles of gates, and the number of the gate of each."""
-    moving = np.flatnonzero(particles.kind == GATE)
+    moving = np.flatnonzero((particles.kind == GATE) | (particles.kind == GATE_DUMMY))
     edges = faces(case)
     order = np.argsort(edges[:, 0])
     return moving, order[np.searchsorted(edges[order, 1], particles.position[moving, 0])]

@@ -97,8 +97,8 @@ def _top(level, excess, occupied):
 def probe(position, velocity, pressure, kind, spacing, point, width=0.0):
     """Pressure and velocity at a point, by moving least squares of first order.
 
-    The pressure is that of fluid, wall and piston particles, the velocity that of fluid particles,
-    within 2.1 spacings. A linear field comes back exactly.
+    The pressure is that of the particles that carry one (water, walls, piston, gates), the velocity
+    that of the water, within 2.1 spacings. A linear field comes back exactly.
 
     Parameters
     ----------

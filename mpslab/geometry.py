@@ -9,7 +9,16 @@ from scipy.spatial import cKDTree
 
 from mpslab import bed as beds
 from mpslab import gates, obstacles
-from mpslab.particles import DUMMY, FLUID, GATE, PISTON, PISTON_DUMMY, WALL, make_particles
+from mpslab.particles import (
+    DUMMY,
+    FLUID,
+    GATE,
+    GATE_DUMMY,
+    PISTON,
+    PISTON_DUMMY,
+    WALL,
+    make_particles,
+)
 
 
 def effective_length(case):
@@ -125,13 +134,17 @@ def _box(case, start, end):
     rows, spacing = [np.zeros((0, 4))], case.particles.spacing
     for low, high in obstacles.around(case, start, end):
         sides = [round(low[1] / spacing) * spacing, round(high[1] / spacing) * spacing]
-        for x in _columns(case, low[0], min(high[0], effective_length(case))):
-            if gates.holds(case, x):
-                continue
+        for x in columns(case, low, high):
             stack = _stack(case, x, low[2], high[2])
             across = np.broadcast_to(sides, (len(stack), 2))
             rows.append(np.hstack([stack, across]))
     return np.vstack(rows)
+
+
+def columns(case, start, end):
+    """x of the columns of water in a box [m], a list: those that are in no gate."""
+    along = _columns(case, start[0], min(end[0], effective_length(case)))
+    return [x for x in along if not gates.holds(case, x)]
 
 
 def _disc(case, water):
@@ -155,9 +168,9 @@ def _solid_section(case, backmost):
     right, right_kind = _end_wall(case, floor, 1)
     if case.wavemaker.type != "none":
         left_kind = np.where(left_kind == WALL, PISTON, PISTON_DUMMY)
-    plates = _gates(case, floor)
-    kinds = [floor_kind, left_kind, right_kind, np.full(len(plates), GATE, np.int8)]
-    return np.vstack([floor, left, right, plates]), np.concatenate(kinds)
+    plates, plate_kind = _gates(case, floor)
+    kinds = np.concatenate([floor_kind, left_kind, right_kind, plate_kind])
+    return np.vstack([floor, left, right, plates]), kinds
 
 
 def _smooth_bed(case, behind):
@@ -207,11 +220,17 @@ def _end_wall(case, floor, side):
 
 
 def _gates(case, floor):
-    """Vertical columns of the gates, standing on the bed: (n, 2) [m]."""
-    columns = [x for low, high in gates.faces(case) for x in _columns(case, low, high)]
-    plates = [_stack(case, x, -np.inf, case.tank.height) for x in columns]
-    plates = np.vstack([np.zeros((0, 2)), *plates])
-    return plates[_clear(case, plates, floor)]
+    """Vertical columns of the gates, standing on the bed: (n, 2) [m] and kinds (n,)."""
+    rows, kinds = [np.zeros((0, 2))], [np.zeros(0, np.int8)]
+    for low, high in gates.faces(case):
+        columns = _columns(case, low, high)
+        for x in columns:
+            rows.append(_stack(case, x, -np.inf, case.tank.height))
+            outer = x in (columns[0], columns[-1])
+            kinds.append(np.full(len(rows[-1]), GATE if outer else GATE_DUMMY, np.int8))
+    plates, kind = np.vstack(rows), np.concatenate(kinds)
+    free = _clear(case, plates, floor)
+    return plates[free], kind[free]
 
 
 def _clear(case, section, floor):

@@ -4,13 +4,14 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-FLUID, WALL, DUMMY, PISTON, PISTON_DUMMY, GATE = range(6)
-KIND_NAMES = ("fluid", "wall", "dummy", "piston", "piston dummy", "gate")
+FLUID, WALL, DUMMY, PISTON, PISTON_DUMMY, GATE, GATE_DUMMY = range(7)
+KIND_NAMES = ("fluid", "wall", "dummy", "piston", "piston dummy", "gate",
+              "gate dummy")  # fmt: skip
 
 
 def carries_pressure(kind):
     """Mask of the kinds with a pressure of their own: (n,) int8 -> (n,) bool."""
-    return (kind != DUMMY) & (kind != PISTON_DUMMY)
+    return (kind == FLUID) | (kind == WALL) | (kind == PISTON) | (kind == GATE)
 
 
 def on_axes(mask):
@@ -28,7 +29,7 @@ class ParticleSet:
         Number of a particle; it never changes.
     kind : (n,) int8
         FLUID, WALL (first layer, carries pressure), DUMMY (layers behind it, fill the number
-        density only), PISTON and PISTON_DUMMY (the same two, moving), GATE (as WALL, moving).
+        density only), PISTON and PISTON_DUMMY, GATE and GATE_DUMMY (the same two, moving).
     position : (n, 3) float64 [m]
     velocity : (n, 3) float64 [m/s]
     pressure : (n,) float64 [Pa]

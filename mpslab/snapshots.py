@@ -9,9 +9,12 @@ from matplotlib.figure import Figure
 
 from mpslab import vtkhdf
 from mpslab.overturning import find_crest
-from mpslab.particles import DUMMY, FLUID, GATE, PISTON, PISTON_DUMMY, WALL
+from mpslab.particles import DUMMY, FLUID, GATE, GATE_DUMMY, PISTON, PISTON_DUMMY, WALL
 
-GREYS = {DUMMY: "0.80", WALL: "0.55", PISTON_DUMMY: "0.55", PISTON: "0.20", GATE: "0.20"}
+GREYS = {
+    DUMMY: "0.80", WALL: "0.55", PISTON_DUMMY: "0.55", PISTON: "0.20", GATE_DUMMY: "0.55",
+    GATE: "0.20",
+}  # fmt: skip
 SPEED_MAP = "viridis"
 WATER = "#3b7dbf"  # where the frames hold no velocity
 PAGE_WIDTH = 10.0  # [inch]

@@ -10,7 +10,7 @@ def limits(case, previous, max_speed):
     previous : float [s]
         Last time step, 0 before the first.
     max_speed : float [m/s]
-        Of fluid and piston particles.
+        Of water, piston and gates.
     """
     time, spacing = case.time, case.particles.spacing
     found = {"maximum": time.maximum}

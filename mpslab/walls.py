@@ -13,7 +13,9 @@ from mpslab.particles import DUMMY, FLUID, WALL, on_axes
 
 
 def pull(particles, before, gravity, dt):
-    """g - a of every particle, a being the acceleration of the walls, (n, 3) [m/s2].
+    """g - a of every particle, a being the acceleration of the piston, (n, 3) [m/s2].
+
+    Gates rise at a constant speed; the jump of it as they open is left out.
 
     Parameters
     ----------

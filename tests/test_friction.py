@@ -19,6 +19,7 @@ LINEAR = {
     "strain": ([[RATE, 0, 0], [0, 0, 0], [0, 0, -RATE]], 2.0 * RATE),
     "rotation": ([[0, 0, RATE], [0, 0, 0], [-RATE, 0, 0]], 0.0),
 }
+ALL = np.array([[1.0, 2.0, -0.5], [3.0, -2.0, 0.7], [0.4, -1.1, 1.3]])
 
 
 def strain_rate(position, velocity, dim, kind=None, slip=True):
@@ -51,6 +52,13 @@ def test_strain_rate_of_linear_flow_is_exact_in_disorder(flow, dim):
     matrix, exact = LINEAR[flow]
     position = cloud(dim, 9**dim, 1, jitter=0.2)
     found = strain_rate(position, position @ np.transpose(np.array(matrix, float)), dim)
+    np.testing.assert_allclose(found[inside(position, 1.5)], exact, atol=1e-12)
+
+
+def test_strain_rate_in_3d_takes_all_components():
+    position = cloud(3, 9**3, 2, jitter=0.2)
+    found = strain_rate(position, position @ ALL.T, 3)
+    exact = np.sqrt(2.0 * np.sum((0.5 * (ALL + ALL.T)) ** 2))
     np.testing.assert_allclose(found[inside(position, 1.5)], exact, atol=1e-12)
 
 

@@ -6,7 +6,7 @@ from tanks import make_case, particles_at
 
 from mpslab import timestep
 from mpslab.diagnostics import max_speed
-from mpslab.particles import DUMMY, FLUID, PISTON, WALL
+from mpslab.particles import DUMMY, FLUID, GATE, PISTON, WALL
 
 TIME = {"courant": 0.2, "viscous": 0.25, "growth": 1.1, "maximum": 1e-3, "start": 1e-4}
 
@@ -65,8 +65,10 @@ def test_time_step_shrinks_at_once_and_grows_by_a_tenth():
     assert timestep.choose(case(), dt, 0.0) == (pytest.approx(4.4e-6), "growth")
 
 
-@pytest.mark.parametrize(("kind", "speed"), [(FLUID, 5), (PISTON, 5), (WALL, 0), (DUMMY, 0)])
-def test_speed_is_that_of_water_and_piston(kind, speed):
+@pytest.mark.parametrize(
+    ("kind", "speed"), [(FLUID, 5), (PISTON, 5), (GATE, 5), (WALL, 0), (DUMMY, 0)]
+)
+def test_speed_is_that_of_water_piston_and_gates(kind, speed):
     particles = particles_at(np.zeros((2, 3)), np.array([FLUID, kind]))
     particles.velocity[1] = [3.0, 0.0, -4.0]
     assert max_speed(particles) == speed

@@ -13,7 +13,7 @@ def read_columns(path):
         return dict(zip(heading, np.loadtxt(file, delimiter=",").T, strict=True))
 
 
-def foremost(position, spacing, others):
+def foremost(position, spacing, others, among=True):
     """Largest x of the water that is no spray [m].
 
     Parameters
@@ -22,6 +22,8 @@ def foremost(position, spacing, others):
     spacing : float [m]
     others : int
         Particles that one needs within two spacings not to be spray.
+    among : (n,) bool, optional
+        Those whose x counts; all are company.
 
     Returns
     -------
@@ -32,4 +34,4 @@ def foremost(position, spacing, others):
         return -np.inf
     tree = cKDTree(position)
     around = tree.query_ball_point(position, NEIGHBOURHOOD * spacing, return_length=True) - 1
-    return position[around >= others, 0].max(initial=-np.inf)
+    return position[(around >= others) & among, 0].max(initial=-np.inf)

@@ -211,18 +211,29 @@ def _check_obstacles(case):
                 f"beyond 'from' = {shown(case.obstacle[i].start)} along {axis} by {least} spacings,"
                 f" {least * spacing:g} m, or water on one side presses through to the other",
             )
-    boxes = [(box.start, box.end) for box in case.water] or [geometry.filled(case)]
     _require(
-        not case.obstacle or any(obstacles.around(case, *box) for box in boxes),
+        not case.obstacle or _room(case),
         "obstacle",
         [[box.start, box.end] for box in case.obstacle],
         "boxes that leave room for the water",
     )
 
 
+def _room(case):
+    """What the obstacles leave of the water: boxes as pairs of corners [m]."""
+    boxes = [(box.start, box.end) for box in case.water] or [geometry.filled(case)]
+    return [piece for box in boxes for piece in obstacles.around(case, *box)]
+
+
 def _check_gates(case):
     faces, spacing = gates.faces(case), case.particles.spacing
     slack = 1e-6 * spacing
+    _require(
+        not case.gate or any(geometry.columns(case, *piece) for piece in _room(case)),
+        "gate",
+        [gate.x for gate in case.gate],
+        "elsewhere: where these stand there is no room for the water",
+    )
     for i, (low, high) in enumerate(faces):
         most = geometry.effective_length(case) - (obstacles.least_thickness(case) + 1) * spacing
         x = case.gate[i].x
@@ -237,6 +248,13 @@ def _check_gates(case):
             apart = low >= end[0] - slack or start[0] >= high - slack
             rule = f"outside of obstacle.{j}, which a gate cannot pass"
             _require(apart, f"gate.{i}.x", x, rule)
+        fastest = spacing / case.time.maximum if case.time.maximum else np.inf
+        _require(
+            case.gate[i].speed <= fastest * (1.0 + ROUNDING),
+            f"gate.{i}.speed",
+            case.gate[i].speed,
+            f"<= {fastest:.4g} m/s, a spacing in time.maximum = {case.time.maximum:.4g} s",
+        )
 
 
 def _check_motion(case):

@@ -9,11 +9,12 @@ cdef enum:
     PISTON = 3
     PISTON_DUMMY = 4
     GATE = 5
+    GATE_DUMMY = 6
 
 
 cdef inline bint has_pressure(signed char kind) noexcept nogil:
     """Fluid, wall, piston and gate particles carry a pressure; layers behind walls do not."""
-    return kind != DUMMY and kind != PISTON_DUMMY
+    return kind == FLUID or kind == WALL or kind == PISTON or kind == GATE
 
 
 cdef inline double wrap(double dy, double width) noexcept nogil:

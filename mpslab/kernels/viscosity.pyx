@@ -45,10 +45,10 @@ def strain_rate(const double[:, ::1] position, const double[:, ::1] velocity,
                 stencil, const double[:, ::1] c, bint slip, double[::1] out):
     """|S| = sqrt(2 S:S) of the water, S the symmetric part of (Ds/n0) sum_j u_ij (x) C_i r_ij w/r^2.
 
-    In [1/s]; 0 for solids.  Exact for linear velocities where the neighbours are complete; with
-    `slip` the walls are left out, as in `viscous_acceleration`.
+    In [1/s]; 0 for solids.  Exact for linear velocities where the neighbours are complete.  With
+    `slip` the walls are left out, as in `viscous_acceleration`, and next to one |S| is about half.
 
-    c : (n, 6) correction matrices over the same neighbours; see mpslab.kernels.moments
+    c : (n, 6) correction matrices over all neighbours; see mpslab.kernels.moments
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = stencil.dim / stencil.n0

@@ -224,14 +224,19 @@ def _compare_sensors(result, name, run, band, event):
 
 
 def _compare_impulses(result, finest, runs, band, event):
-    """Impulses at the four sensors, and on the wall up to the highest, over those of event 5."""
+    """Impulses at the four sensors, and on the wall up to the highest, over those of event 5.
+
+    From when the lowest sensor is hit, over as long as the run has gone on since.
+    """
     measured = [_mean(band.time, _column(event, probe.lower() + "_")) for probe in SENSORS]
     rows = []
     for name, run in runs.items():
         seen = [_pressure(run, probe, band.time) for probe in SENSORS]
-        pairs = [(_impulse(*mine), _impulse(band.time, theirs))
-                 for mine, theirs in zip(seen, measured, strict=True)]  # fmt: skip
-        ours, theirs = np.transpose(pairs)
+        time, came = seen[0][0], _arrival(*seen[0])
+        lasting = min(WINDOW, time[-1] - came)
+        ours = np.array([_impulse(time, p, came, lasting) for _, p in seen])
+        hit = _arrival(band.time, measured[0])
+        theirs = np.array([_impulse(band.time, p, hit, lasting) for p in measured])
         height = [probe["z"] for probe in run.case["probe"] if probe["name"] in SENSORS]
         wall = _along(height, ours) / _along(height, theirs)
         rows.append([_label(run), *(ours / theirs), wall])
@@ -241,11 +246,10 @@ def _compare_impulses(result, finest, runs, band, event):
     result.table(title, ["run", *SENSORS, "wall up to P4"], rows)
 
 
-def _impulse(time, pressure):
-    """Integral of a pressure over the window from its rise on."""
-    came = _arrival(time, pressure)
-    window = (time >= came) & (time <= came + WINDOW)
-    return np.trapezoid(pressure[window], time[window])
+def _impulse(time, pressure, start, lasting):
+    """Integral of a pressure from a time on; NaN where that is one."""
+    window = (time >= start) & (time <= start + lasting)
+    return np.trapezoid(pressure[window], time[window]) if window.any() else np.nan
 
 
 def _along(height, value):

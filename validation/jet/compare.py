@@ -12,13 +12,13 @@ SEEN = 4.0  # depths up the wall that are drawn
 
 
 def compare(runs):
-    """Force, share along the height, and noise, of the finest run of `standard`."""
+    """Force, pressure along the height, and noise, of the finest run of `standard`."""
     result = Comparison()
     streams = {name: _Stream(run) for name, run in runs.items()}
     standard = [s for name, s in streams.items() if name not in ("mps", "paper")]
     finest = min(standard, key=lambda stream: stream.run.spacing)
     result.measure("force", finest.force)
-    result.measure("share", finest.miss)
+    result.measure("profile", finest.miss)
     result.measure("noise", finest.noise.mean())
     if len(standard) > 1:
         spacings = [stream.run.spacing for stream in standard]

@@ -206,7 +206,7 @@ def _foremost(profile):
 def _front(frame, spacing):
     """x [m] of the foremost water clearly above the still level, spray left out; NaN for none."""
     x = frame["position"][frame["kind"] == FLUID].astype(float)
-    front = foremost(x[x[:, 2] + 0.5 * spacing > STILL + RAISED], spacing, COMPANY)
+    front = foremost(x, spacing, COMPANY, x[:, 2] + 0.5 * spacing > STILL + RAISED)
     return front if np.isfinite(front) else np.nan
 
 
