@@ -17,8 +17,8 @@ from validation.run import Run
 
 PICTURE_DPI = 100
 LEDGER = (
-    "Ledger (in 2-D of a slice 1 m wide). Walls do no work and have no friction, so that what is "
-    "dissipated is lost by the scheme, and to the viscosity of water"
+    "Ledger (in 2-D of a slice 1 m wide). Walls do no work: what is dissipated is lost by the "
+    "scheme, to the viscosity of water and, where a case has them, to friction and eddies"
 )
 LEDGER_COLUMNS = [
     "run", "work of the piston [J]", "kinetic energy gained [J]", "potential energy gained [J]",
