@@ -15,7 +15,8 @@ def particle_volume(stencil):
 
 def max_speed(particles):
     """Largest speed of the water, the piston and the gates [m/s]; 0 when there are none."""
-    moving = np.isin(particles.kind, (FLUID, PISTON, GATE))
+    kind = particles.kind
+    moving = (kind == FLUID) | (kind == PISTON) | (kind == GATE)
     square = np.einsum("ij,ij->i", particles.velocity, particles.velocity)
     return float(np.sqrt(square.max(initial=0.0, where=moving)))
 

@@ -62,12 +62,18 @@ def test_strain_rate_in_3d_takes_all_components():
     np.testing.assert_allclose(found[inside(position, 1.5)], exact, atol=1e-12)
 
 
-def test_strain_rate_sees_the_wall_only_without_slip():
+def stream_along_a_wall():
+    """Position, velocity and kind of water at 2 m/s over a wall; the middle of its lowest layer."""
     position = lattice(2, 5)
     kind = np.where(position[:, 2] < 0.0, WALL, FLUID)
     velocity = np.zeros_like(position)
     velocity[kind == FLUID, 0] = 2.0
     at_wall = (position[:, 2] == 0.0) & (np.abs(position[:, 0]) < 2.0)
+    return position, velocity, kind, at_wall
+
+
+def test_strain_rate_sees_the_wall_only_without_slip():
+    position, velocity, kind, at_wall = stream_along_a_wall()
     assert np.all(strain_rate(position, velocity, 2, kind, slip=True)[at_wall] < 1e-12)
     assert np.all(strain_rate(position, velocity, 2, kind, slip=False)[at_wall] > 0.5)
     assert np.all(strain_rate(position, velocity, 2, kind, slip=False)[kind == WALL] == 0.0)
@@ -109,11 +115,7 @@ def test_eddies_keep_momentum_and_lose_energy(dim):
 
 
 def test_walls_brake_the_water_by_its_own_eddies():
-    position = lattice(2, 5)
-    kind = np.where(position[:, 2] < 0.0, WALL, FLUID)
-    velocity = np.zeros_like(position)
-    velocity[kind == FLUID, 0] = 2.0
-    at_wall = (position[:, 2] == 0.0) & (np.abs(position[:, 0]) < 2.0)
+    position, velocity, kind, at_wall = stream_along_a_wall()
     assert np.all(acceleration(position, velocity, 2, slip=True, kind=kind)[at_wall] == 0.0)
     rough = acceleration(position, velocity, 2, slip=False, kind=kind)
     assert np.all(rough[at_wall, 0] < 0.0)

@@ -146,7 +146,8 @@ def _repeat(data, gauge, part):
 def _compare_pressure(result, runs):
     band = _Band(read_columns(DATA / "lobovsky2014_pressure_sensor2_H300_percentiles_1ms.csv"))
     event = read_columns(DATA / "lobovsky2014_pressure_H300_event5_1ms.csv")
-    event = {name: np.interp(band.time, event["t [s]"], p) for name, p in list(event.items())[2:]}
+    event = {name: _mean(band.time, np.interp(band.time, event["t [s]"], p))
+             for name, p in list(event.items())[2:]}  # fmt: skip
     figure = result.figure("Pressure at sensor 2, mean over 10 ms, from the impact on",
                            "time from the impact [s]", "p / (rho g H)")  # fmt: skip
     came = band.came
@@ -163,7 +164,7 @@ def _compare_pressure(result, runs):
             result.measure("impulse", impulse)
             result.measure("inside", inside)
     for label, column in (("sensor 2", "p2_"), ("sensor 2L, beside it", "p2L_")):
-        late, *rest = band.judge(band.time, _mean(band.time, _column(event, column)))
+        late, *rest = band.judge(band.time, _column(event, column))
         rows.append([f"experiment, event 5, {label}", 1e3 * late, *rest])
     columns = ["run", "impact after the median's [ms]", "impulse over the median's", "share inside"]
     result.table("Pressure at sensor 2", columns, rows)
@@ -210,7 +211,7 @@ def _compare_sensors(result, name, run, band, event):
     """Pressures of a run at four heights: at P2 against the median, else against one event."""
     for probe in SENSORS:
         time, pressure = _pressure(run, probe, band.time)
-        measured = _mean(band.time, _column(event, probe.lower() + "_"))
+        measured = _column(event, probe.lower() + "_")
         if probe == "P2":
             label, measured = "the median", band.median
         else:
@@ -228,7 +229,7 @@ def _compare_impulses(result, finest, runs, band, event):
 
     From when the lowest sensor is hit, over as long as the run has gone on since.
     """
-    measured = [_mean(band.time, _column(event, probe.lower() + "_")) for probe in SENSORS]
+    measured = [_column(event, probe.lower() + "_") for probe in SENSORS]
     rows = []
     for name, run in runs.items():
         seen = [_pressure(run, probe, band.time) for probe in SENSORS]
