@@ -20,8 +20,10 @@ def set_velocity(case, particles, total):
     fluid, start = particles.fluid, case.initial
     x, z = particles.position[fluid, 0], particles.position[fluid, 2]
     if start.type == "standing_wave":
+        tank, depth = case.tank, case.tank.paddle_depth
+        above_bed = z - (tank.depth - depth)
         u, w = standing_wave_velocity(
-            x, z, start.amplitude, start.mode, case.tank.length, case.tank.depth, case.fluid.gravity
+            x, above_bed, start.amplitude, start.mode, tank.length, depth, case.fluid.gravity
         )
     elif start.type == "stream":
         u, w = start.speed, 0.0

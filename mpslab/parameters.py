@@ -18,7 +18,7 @@ class Tank:
     """The tank, from the wavemaker at x = 0 to the end wall; z = 0 is the lowest bed."""
 
     length: float = key("length, from the wavemaker at rest to the end wall", unit="m", above=0)
-    depth: float = key("depth of the still water above z = 0", unit="m", above=0)
+    depth: float = key("level of the still water above z = 0", unit="m", above=0)
     width: float = key("width across y; 0 for a 2-D tank (x-z)", 0.0, unit="m", low=0)
     height: float = key(
         "height of the walls; 0 for the larger of 3 depth and top of the bed + depth",
@@ -41,6 +41,16 @@ class Tank:
     def bed_height(self, x):
         """Height of the bed at x [m], by straight lines between the points of the bed."""
         return elevation(self.bed, x)
+
+    @property
+    def paddle_depth(self):
+        """Depth of the still water at the wavemaker [m]."""
+        return self.depth - (self.bed[0][1] if self.bed else 0.0)
+
+    @property
+    def deepest(self):
+        """Largest depth of the still water [m]."""
+        return self.depth - min((z for _, z in self.bed), default=0.0)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -18,7 +18,7 @@ def make_paddle(case):
     if case.wavemaker.type == "none":
         return None
     maker = plugins.load("wavemakers", case.wavemaker.type)
-    paddle = maker.make(case.wavemaker, case.tank.depth, case.fluid.gravity, case.time.end)
+    paddle = maker.make(case.wavemaker, case.tank.paddle_depth, case.fluid.gravity, case.time.end)
     reach = paddle.foremost + ROOM * case.particles.spacing
     for i, box in enumerate(case.obstacle):
         _leave_room(f"obstacle.{i}.from", box.start, box.start[0], reach)

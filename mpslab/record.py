@@ -136,8 +136,8 @@ class Record:
 
         Returns
         -------
-        int
-            How many left it on all ranks.
+        list of str
+            The sides by which they left, one entry for each on all ranks.
         """
         p, time = self.flow.particles, self.flow.time
         mine = [(int(p.gid[r]), p.position[r].tolist(), x.reason) for x in lost for r in x.rows]
@@ -145,7 +145,7 @@ class Record:
         if found:
             self._write(lambda: [self.folder.add_lost(step, time, [gid], [place], reason)
                                  for gid, place, reason in found])  # fmt: skip
-        return len(found)
+        return [reason for _, _, reason in found]
 
     def write_checkpoint(self, state, name=None):
         """Write the state of the run, to `checkpoint.h5` unless another name is given."""

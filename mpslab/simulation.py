@@ -1,6 +1,7 @@
 """The run: choose a time step, advance, write down."""
 
 import time as clock
+from collections import Counter
 
 import numpy as np
 
@@ -86,7 +87,7 @@ class Simulation:
 
     def _set_up(self, case, flow, folder):
         self.case = case
-        self.step, self.dt, self.lost = 0, 0.0, 0
+        self.step, self.dt, self.lost, self._sides = 0, 0.0, 0, Counter()
         self.stop_requested = False
         self.outcome, self.reason = "running", None
         self._flow = flow
@@ -187,7 +188,7 @@ class Simulation:
         self.step += 1
         self._take_out_lost()
         check_step(self._flow, report, self.dt, self.step)
-        check_lost(self._flow, self.lost, self.at_start, self.step)
+        check_lost(self._flow, self.lost, self._sides, self.at_start, self.step)
         with self.stopwatch.phase("record"):
             self._record.add_step(
                 step=self.step, time=self.time, dt=self.dt, dt_limit=limit,
@@ -211,7 +212,9 @@ class Simulation:
     def _take_out_lost(self):
         particles = self.particles
         lost = find_lost(self.case, particles, self._flow.piston.face(self.time))
-        self.lost += self._record.add_lost(self.step, lost)
+        sides = self._record.add_lost(self.step, lost)
+        self.lost += len(sides)
+        self._sides.update(sides)
         if lost:
             keep = np.ones(len(particles), bool)
             keep[np.concatenate([side.rows for side in lost])] = False

@@ -65,6 +65,11 @@ class Flow:
         return self.case.scheme.walls == "extrapolated"
 
     @property
+    def unknowns(self):
+        """Mask of the particles whose pressure is an unknown of the equation, (n,) bool."""
+        return self.particles.fluid if self.extrapolates else self.particles.carries_pressure
+
+    @property
     def needs_correction(self):
         """Whether a model works with the correction matrices."""
         models = (self.gradient, self.source, *self.stabilisers)
@@ -137,9 +142,9 @@ def density_rate(case, time):
     For the same reason it begins with nothing, and is whole after the time that a wave takes for
     twice the depth: at once, it would give the water at rest a blow of several times its weight.
     """
-    layers = case.tank.depth / case.particles.spacing if case.fluid.gravity else 0.0
+    layers = case.tank.deepest / case.particles.spacing if case.fluid.gravity else 0.0
     rate = case.scheme.gamma * LAYERS / max(layers, LAYERS) / case.time.maximum
-    waking = WAKING * math.sqrt(case.tank.depth / case.fluid.gravity) if layers else 0.0
+    waking = WAKING * math.sqrt(case.tank.deepest / case.fluid.gravity) if layers else 0.0
     s = min(time / waking, 1.0) if waking else 1.0
     return rate * s * s * (3.0 - 2.0 * s)
 
@@ -201,7 +206,7 @@ def find_neighbors(flow):
     """The neighbour list of the particles as they are; of ghosts only those next to the border."""
     radius = max(flow.stencil.radius, flow.laplacian_stencil.radius)
     particles = flow.particles
-    active = particles.fluid if flow.extrapolates else particles.carries_pressure
+    active = flow.unknowns
     if not getattr(flow.solver, "NEEDS_GHOST_ROWS", False):
         active &= flow.domain.within_reach(particles.position[:, 0], radius)
     flow.neighbors.build(particles.position, radius, flow.stencil.width, active)
@@ -229,7 +234,9 @@ def find_surface(flow):
     if scheme.surface == "graded":
         graded = surface.grade_surface(particles, neighbors, flow.stencil)
     else:
-        surface.mark_surface(particles, neighbors, flow.stencil, scheme.surface_threshold)
+        surface.mark_surface(
+            particles, neighbors, flow.stencil, scheme.surface_threshold, flow.unknowns
+        )
     flow.domain.refresh(particles.surface)
     return graded
 
@@ -243,7 +250,9 @@ def _assemble(flow, graded, pull, dt):
         velocity = walls.predicted_velocity(particles, pull, dt)
         kind = walls.outside_system(particles)
     if graded is not None:
-        towards_zero = surface.surface_pull(particles, graded, stencil, terms, rho)
+        towards_zero = surface.surface_pull(
+            particles, graded, flow.stencil, stencil, terms, rho
+        )
         n = surface.filled_density(n, graded, flow.stencil)
     right = np.empty(len(particles))
     flow.source.source(
@@ -266,7 +275,10 @@ def _solve(flow, system, rows, pull):
         scheme.clip_pressure,
     )  # fmt: skip
     if flow.extrapolates:
-        walls.fill(particles, flow.neighbors, flow.stencil, flow.case.fluid.density, pull)
+        walls.fill(
+            particles, flow.neighbors, flow.stencil, flow.case.fluid.density, pull,
+            scheme.clip_pressure,
+        )  # fmt: skip
         flow.domain.refresh(particles.pressure)
     return report
 

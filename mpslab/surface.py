@@ -14,14 +14,17 @@ GRADE_LOPSIDED = (0.15, 0.35)
 GRADE_SPRAY = (0.85, 0.70)
 
 
-def mark_surface(particles, neighbors, stencil, threshold):
+def mark_surface(particles, neighbors, stencil, threshold, unknown):
     """Option ``scheme.surface = "marked"``: set ``particles.surface``, where p = 0 holds.
+
+    Only particles whose pressure is an unknown, a mask (n,) bool, can be marked: no others have
+    neighbours in the list.
 
     A particle is at the surface where n < threshold n0, unless its neighbours surround it
     evenly: more than four of them, and |sum w r_ij|/n < 0.2 d0 (Shibata et al.; NPCD 2016).
     """
     few = particles.number_density < threshold * stencil.n0
-    few &= particles.carries_pressure
+    few &= unknown
     rows = np.flatnonzero(few)
     count, lopsided = _imbalance(particles, neighbors, stencil, rows)
     inside = (count > FEW) & (lopsided < LOPSIDED * stencil.spacing)
@@ -46,16 +49,19 @@ def grade_surface(particles, neighbors, stencil):
     return graded
 
 
-def surface_pull(particles, graded, stencil, pair_terms, density_):
+def surface_pull(particles, graded, stencil, laplacian_stencil, pair_terms, density_):
     """What the space above the surface adds to the diagonal of the pressure equation, (n,).
 
     The neighbours that a surface particle lacks stand for its mirror image above the surface, at
     the pressure -p_i: p = 0 holds half a spacing above the centre, where the water ends.  With
     the points themselves at p = 0 (half this pull; Tsuruta et al. 2015) the correction overshoots
     in 3-D, and the pressure of still water alternates by 6 % from step to step.
+
+    Which share of the neighbours is missing tells the number density, of the first stencil; the
+    pull of all of them is that of the Laplacian's.
     """
     missing = np.maximum(1.0 - particles.number_density / stencil.n0, 0.0)
-    return 2.0 * graded * missing * _lattice_sum(stencil, pair_terms) / density_
+    return 2.0 * graded * missing * _lattice_sum(laplacian_stencil, pair_terms) / density_
 
 
 def filled_density(number_density, graded, stencil):

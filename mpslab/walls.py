@@ -52,8 +52,8 @@ def flux(particles, neighbors, stencil, pair_terms, pull_):
     return out
 
 
-def fill(particles, neighbors, stencil, density, pull_):
-    """Give the solids the pressure of the water in front of them, in place; not below zero."""
+def fill(particles, neighbors, stencil, density, pull_, clip):
+    """Give the solids the pressure of the water in front of them, in place; with `clip` not < 0."""
     kernels.extrapolate(particles.position, particles.kind, neighbors.indptr, neighbors.indices,
-                        stencil, density, pull_, particles.pressure,
+                        stencil, density, pull_, clip, particles.pressure,
                         np.empty(len(particles)))  # fmt: skip

@@ -8,6 +8,7 @@ from mpslab import obstacles
 from mpslab.geometry import effective_length, rows_across
 
 MOST_LOST = 1e-3  # of the fluid particles at the start
+FEW_LOST = 5  # are borne by any run
 
 
 class RunFailed(RuntimeError):
@@ -34,15 +35,20 @@ def find_lost(case, particles, face):
     """
     spacing = case.particles.spacing
     position = particles.position
-    sides = [
-        ("behind the wavemaker", position[:, 0] < face - spacing),
-        ("behind the end wall", position[:, 0] > effective_length(case) + spacing),
-        ("below the bed", position[:, 2] < case.tank.bed_height(position[:, 0]) - spacing),
+    first = "the wall at x = 0" if case.wavemaker.type == "none" else "the wavemaker"
+    walls = [
+        (first, position[:, 0] < face - spacing),
+        ("the end wall", position[:, 0] > effective_length(case) + spacing),
     ]
     if case.tank.width > 0.0 and not case.tank.periodic:
         width = rows_across(case) * spacing
         out = (position[:, 1] < -spacing) | (position[:, 1] > width + spacing)
-        sides.append(("behind a side wall", out))
+        walls.append(("a side wall", out))
+    high = position[:, 2] > case.tank.height
+    sides = [(f"over {wall}", out & high) for wall, out in walls]
+    sides += [(f"behind {wall}", out & ~high) for wall, out in walls]
+    bed = case.tank.bed_height(position[:, 0])
+    sides.append(("below the bed", position[:, 2] < bed - spacing))
     if case.obstacle:
         sides.append(("into an obstacle", obstacles.deep_inside(case, position) >= 0))
     found, seen = [], ~particles.fluid
@@ -98,13 +104,26 @@ def _when(flow, step):
     return f"step {step}, t = {flow.time:.6g} s"
 
 
-def check_lost(flow, lost, at_start, step):
-    """Raise RunFailed when too many particles have left the tank."""
-    if lost > MOST_LOST * at_start:
-        raise RunFailed(
-            f"{lost} of {at_start} fluid particles lost, more than 0.1 %, "
-            f"{_when(flow, step)}, {_fastest(flow)}"
-        )
+def check_lost(flow, lost, sides, at_start, step):
+    """Raise RunFailed when too many particles have left the tank.
+
+    Parameters
+    ----------
+    lost, at_start : int
+        Particles lost so far, and those of water at the start.
+    sides : dict of str to int
+        How many have left by each side since the start or the restart.
+    """
+    if lost <= max(MOST_LOST * at_start, FEW_LOST):
+        return
+    found = ", ".join(f"{number} {side}" for side, number in sides.items())
+    over = any(side.startswith("over") for side in sides)
+    height = flow.case.tank.height
+    mend = f"; tank.height = {height:g} m is too low for the water" if over else ""
+    raise RunFailed(
+        f"{lost} of {at_start} fluid particles lost, more than 0.1 %: {found}{mend}, "
+        f"{_when(flow, step)}, {_fastest(flow)}"
+    )
 
 
 def _place(flow, row):

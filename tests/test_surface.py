@@ -18,7 +18,7 @@ def marked(position, dim, radius=2.1, kind=FLUID, search=None, threshold=0.97):
     density.number_density(
         particles.position, found.indptr, found.indices, stencil, particles.number_density
     )
-    mark_surface(particles, found, stencil, threshold)
+    mark_surface(particles, found, stencil, threshold, particles.carries_pressure)
     return particles, stencil
 
 

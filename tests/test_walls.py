@@ -31,7 +31,7 @@ def pull_of(particles):
 def test_extrapolated_pressure_of_still_water_is_exact_in_any_arrangement(dim):
     particles, found = tank(dim)
     exact = particles.pressure.copy()
-    walls.fill(particles, found, make_stencil(dim, 1.0, 2.1), RHO, pull_of(particles))
+    walls.fill(particles, found, make_stencil(dim, 1.0, 2.1), RHO, pull_of(particles), True)
     reached = (particles.kind == WALL) & (particles.pressure > 0.0)
     assert np.count_nonzero(reached) > 9
     np.testing.assert_allclose(particles.pressure[reached], exact[reached], rtol=1e-12)
@@ -96,11 +96,33 @@ def test_missing_neighbours_count_as_present_in_the_density_of_the_surface(dim):
     np.testing.assert_array_equal(n[inner], particles.number_density[inner])
 
 
+@pytest.mark.parametrize("clip", [True, False])
+def test_walls_hold_a_negative_pressure_unless_it_is_clipped(clip):
+    particles, found = tank(2)
+    particles.pressure[particles.fluid] = -1e6
+    walls.fill(particles, found, make_stencil(2, 1.0, 2.1), RHO, pull_of(particles), clip)
+    beside = np.unique(found.indices[~particles.fluid[found.indices]])
+    assert np.all(particles.pressure[beside] == 0.0 if clip else particles.pressure[beside] < 0.0)
+
+
+def test_walls_without_rows_are_never_marked_as_surface():
+    """They would keep the water beside them from being shifted."""
+    scheme = {"scheme.surface": "marked", "scheme.walls": "extrapolated"}
+    flow = flow_of(make_case(scheme))
+    run(flow, 1, 1e-4)
+    fluid = flow.particles.fluid
+    assert not flow.particles.surface[~fluid].any()
+    assert 0 < np.count_nonzero(flow.particles.surface[fluid]) <= 20
+
+
+@pytest.mark.parametrize("radius", [2.1, 3.1])
 @pytest.mark.parametrize("dim", [2, 3])
-def test_surface_pull_is_twice_the_missing_share_of_the_laplacian(dim):
+def test_surface_pull_is_twice_the_missing_share_of_the_laplacian(dim, radius):
+    """The share that is missing of the number density, whatever the radius of the Laplacian."""
     particles, stencil, graded = graded_block(dim)
-    terms = plugins.load("laplacians", "standard").pair_terms(stencil)
-    pull = surface.surface_pull(particles, graded, stencil, terms, RHO)
-    full = 2.0 * dim / stencil.lambda0 / RHO
+    wide = make_stencil(dim, 1.0, radius)
+    terms = plugins.load("laplacians", "standard").pair_terms(wide)
+    pull = surface.surface_pull(particles, graded, stencil, wide, terms, RHO)
+    full = 2.0 * dim / wide.lambda0 / RHO
     missing = 1.0 - particles.number_density / stencil.n0
     np.testing.assert_allclose(pull, 2.0 * graded * missing * full, rtol=1e-9, atol=1e-18)

@@ -91,15 +91,27 @@ def test_too_many_lost_particles_stop_the_run(flow):
     row = fluid_row(flow)
     flow.particles.velocity[row] = [0.0, 0.0, 9.0]
     with pytest.raises(RunFailed) as caught:
-        check_lost(flow, 3, 2000, 7)
+        check_lost(flow, 6, {"behind the end wall": 5, "below the bed": 1}, 5000, 7)
     message = str(caught.value)
-    assert message.startswith("3 of 2000 fluid particles lost, more than 0.1 %")
+    assert message.startswith("6 of 5000 fluid particles lost, more than 0.1 %")
+    assert "5 behind the end wall, 1 below the bed" in message
+    assert "tank.height" not in message
     assert_names_step_time_and_place(message, flow, row)
 
 
-@pytest.mark.parametrize(("lost", "at_start"), [(0, 100), (0, 0), (2, 2000), (96, 96_000)])
+def test_water_that_went_over_the_walls_names_the_key_that_holds_it(flow):
+    with pytest.raises(RunFailed, match=r"4 over the end wall; tank\.height = 0\.06 m is too low"):
+        check_lost(flow, 8, {"over the end wall": 4}, 500, 7)
+
+
+@pytest.mark.parametrize(("lost", "at_start"), [(0, 100), (0, 0), (5, 5000), (96, 96_000)])
 def test_one_lost_particle_in_a_thousand_is_borne(flow, lost, at_start):
-    check_lost(flow, lost, at_start, 7)
+    check_lost(flow, lost, {"below the bed": lost}, at_start, 7)
+
+
+@pytest.mark.parametrize("lost", [1, 5])
+def test_small_run_bears_a_few_lost_particles(flow, lost):
+    check_lost(flow, lost, {"over the end wall": lost}, 200, 7)
 
 
 def lost_at(case, position, face=0.0, kind=0):
@@ -109,7 +121,9 @@ def lost_at(case, position, face=0.0, kind=0):
 
 # Tank of 0.04 x 0.02 m: a particle a spacing outside is borne, a little further it is lost.
 SIDES = [
-    ([-D0, 0.0, 0.01], [-0.01 * D0, 0.0, 0.0], "behind the wavemaker"),
+    ([-D0, 0.0, 0.01], [-0.01 * D0, 0.0, 0.0], "behind the wall at x = 0"),
+    ([-D0, 0.0, 0.07], [-0.01 * D0, 0.0, 0.0], "over the wall at x = 0"),
+    ([0.04 + D0, 0.0, 0.07], [0.01 * D0, 0.0, 0.0], "over the end wall"),
     ([0.04 + D0, 0.0, 0.01], [0.01 * D0, 0.0, 0.0], "behind the end wall"),
     ([0.01, 0.0, -D0], [0.0, 0.0, -0.01 * D0], "below the bed"),
 ]
@@ -128,7 +142,7 @@ def test_walls_are_never_lost(kind):
 
 
 def test_wavemaker_takes_its_limit_along():
-    case = make_case()
+    case = make_case({"wavemaker.type": "still"})
     assert lost_at(case, [0.005, 0.0, 0.01], face=0.0) == []
     assert lost_at(case, [0.005, 0.0, 0.01], face=0.01) == [([0], "behind the wavemaker")]
     assert lost_at(case, [-0.005, 0.0, 0.01], face=-0.01) == []
@@ -150,7 +164,7 @@ def test_side_walls_lose_water_and_a_periodic_tank_does_not(y):
 
 
 def test_particle_beyond_two_walls_is_lost_once():
-    assert lost_at(make_case(), [-1.0, 0.0, -1.0]) == [([0], "behind the wavemaker")]
+    assert lost_at(make_case(), [-1.0, 0.0, -1.0]) == [([0], "behind the wall at x = 0")]
 
 
 def test_water_in_the_air_above_the_walls_is_not_lost():

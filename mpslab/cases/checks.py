@@ -270,10 +270,10 @@ def _check_motion(case):
         _require(exists, "wavemaker.file", maker.file, "a CSV file that exists")
     if initial.type == "standing_wave":
         _require(
-            0.0 < initial.amplitude < tank.depth,
+            0.0 < initial.amplitude < tank.paddle_depth,
             "initial.amplitude",
             initial.amplitude,
-            f"> 0 and < tank.depth = {tank.depth:g} m",
+            f"> 0 and < the depth of the water at x = 0, {tank.paddle_depth:g} m",
         )
     _require(
         initial.rate != 0.0 or initial.type not in ("strain", "rotation"),

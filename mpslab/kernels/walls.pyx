@@ -31,11 +31,12 @@ def flux(const double[:, ::1] position, const signed char[::1] kind, const int[:
 
 def extrapolate(const double[:, ::1] position, const signed char[::1] kind,
                 const int[::1] indptr, const int[::1] indices, stencil, double density,
-                const double[:, ::1] pull, double[::1] pressure, double[::1] total):
+                const double[:, ::1] pull, bint clip, double[::1] pressure, double[::1] total):
     """p_w = sum_f w (p_f + rho f_w . r_fw) / sum_f w over the water f near a solid w [Pa].
 
     Zero where there is no water near (Adami, Hu & Adams 2012).  Rows are those of the water.
 
+    clip : whether a negative pressure becomes zero
     total : (n,) scratch
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
@@ -60,4 +61,4 @@ def extrapolate(const double[:, ::1] position, const signed char[::1] kind,
                     pull[j, 0] * dx + pull[j, 1] * dy + pull[j, 2] * dz))
         for i in range(indptr.shape[0] - 1):
             if total[i] > 0.0:
-                pressure[i] = pressure[i] / total[i] if pressure[i] > 0.0 else 0.0
+                pressure[i] = 0.0 if clip and pressure[i] < 0.0 else pressure[i] / total[i]

@@ -1,0 +1,72 @@
+"""Still water under each combination of the choices that frame a step, in 2-D and 3-D."""
+
+from itertools import product
+
+import numpy as np
+import pytest
+from tanks import make_case
+
+from mpslab import CaseError, Simulation
+
+D0, DEPTH, STEPS = 0.002, 0.04, 20
+GRAVITY, DENSITY = 9.81, 1000.0
+RADII = [(2.1, 2.1), (2.1, 3.1), (3.1, 2.1), (3.1, 3.1)]
+FRAMES = list(product(("marked", "graded"), ("solved", "extrapolated"), ("predicted", "start")))
+POSSIBLE = [f for f in FRAMES if f[:2] != ("graded", "solved")]
+
+
+def combinations():
+    """Every frame with all radii; dimension and bed in turn, so that all pairs are met."""
+    for i, (frame, radii) in enumerate(product(POSSIBLE, RADII)):
+        place = i // 4 + i % 4 + i // 8
+        yield *frame, *radii, 2 + place % 2, 0.006 * (place // 2 % 2)
+
+
+def case_of(surface, walls, projection, effective, laplacian, dim, bed):
+    width = {"tank.width": 8 * D0, "tank.periodic": True} if dim == 3 else {}
+    length = 8 * D0 if dim == 3 else 12 * D0
+    return make_case(
+        {
+            "tank.length": length, "tank.depth": DEPTH + bed, **width,
+            "tank.bed": [[0.0, bed], [length, bed]], "particles.spacing": D0,
+            "scheme.surface": surface, "scheme.walls": walls, "scheme.projection": projection,
+            "scheme.effective_radius": effective, "scheme.laplacian_radius": laplacian,
+            "scheme.settling": 100,
+        }
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("surface", "walls", "projection", "effective", "laplacian", "dim", "bed"), combinations()
+)
+def test_still_water_stands_still(surface, walls, projection, effective, laplacian, dim, bed):
+    """Pressure within 5 % of hydrostatic, no momentum, nothing lost."""
+    sim = Simulation(case_of(surface, walls, projection, effective, laplacian, dim, bed))
+    pressure = []
+    for _ in range(STEPS):
+        sim.advance()
+        p = sim.particles
+        low = p.fluid & (p.position[:, 2] < bed + 0.5 * DEPTH)
+        weight = DENSITY * GRAVITY * (DEPTH + bed - p.position[low, 2])
+        pressure.append(np.mean(p.pressure[low] / weight))
+    fluid = p.fluid
+    fallen = np.abs(p.velocity[fluid].mean(axis=0)).max() / (GRAVITY * sim.time)
+    assert np.mean(pressure[STEPS // 2 :]) == pytest.approx(1.0, abs=0.05)
+    assert fallen < 0.01
+    assert sim.lost == 0
+
+
+def test_pairs_of_choices_are_all_met():
+    rows = list(combinations())
+    assert len(rows) == 24
+    refused = {("graded", "solved")}
+    for a in range(7):
+        for b in range(a):
+            pairs = {(row[a], row[b]) for row in rows}
+            every = set(product({row[a] for row in rows}, {row[b] for row in rows}))
+            assert every - pairs <= {pair[::-1] for pair in refused}, (a, b)
+
+
+def test_graded_surface_over_solved_walls_is_refused_with_the_reason():
+    with pytest.raises(CaseError, match="dry walls need p = 0"):
+        case_of("graded", "solved", "start", 2.1, 2.1, 2, 0.0)
