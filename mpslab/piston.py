@@ -54,7 +54,7 @@ class Piston:
         moving = particles.moves_with_piston
         self.gid = particles.gid[moving]
         self.rest = particles.position[moving, 0].copy()
-        near = paddle.foremost + spacing if paddle else -np.inf
+        near = paddle.farthest + spacing if paddle else -np.inf
         bed = (particles.kind == WALL) & (particles.position[:, 0] < near)
         self.bed = particles.gid[bed]
 
