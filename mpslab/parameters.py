@@ -138,7 +138,7 @@ class Wavemaker:
     period: float = key("wave period", 0.0, unit="s", low=0)
     stroke: float = key("stroke of the piston; 0 to follow from height", 0.0, unit="m", low=0)
     start: float = key("time in which the motion fades in", 0.0, unit="s", low=0)
-    file: str = key("CSV file of time [s] and displacement [m]", "")
+    file: str = key("CSV file of time [s] and displacement [m]", "", copy="wavemaker.csv")
 
     def __post_init__(self):
         check_table(self)
@@ -342,6 +342,14 @@ TABLES = {
     "output": Output,
 }
 LISTS = {"water": Water, "obstacle": Obstacle, "gate": Gate, "gauge": Gauge, "probe": Probe}
+
+# Keys that name an input file, (table, key), and the name of its copy in a run folder.
+FILES = {
+    (name, item.name): item.metadata["copy"]
+    for name, kind in TABLES.items()
+    for item in fields(kind)
+    if "copy" in item.metadata
+}
 
 
 @dataclass(frozen=True, kw_only=True)

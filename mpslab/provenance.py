@@ -4,12 +4,14 @@ import os
 import platform
 import subprocess
 import sys
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 
+@cache
 def environment():
-    """Versions and machine, for the record of a run.
+    """Versions and machine, for the record of a run; worked out once.
 
     Returns
     -------
