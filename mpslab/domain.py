@@ -11,29 +11,44 @@ knows of MPI.
 
 import os
 from dataclasses import fields
+from functools import cache
 
 import numpy as np
 
-from mpslab import balance, rebalance
-from mpslab.communicator import Alone, finish, meet, on_root
+from mpslab import balance, headcount, rebalance
+from mpslab.communicator import Alone, Patience, finish, meet, on_root
 from mpslab.particles import ParticleSet
 from mpslab.stopwatch import COMMUNICATION, WAITING, WORK, Stopwatch
-
-# Set by the launchers of MPICH and of Open MPI.
-LAUNCHED = ("PMI_SIZE", "PMIX_RANK", "OMPI_COMM_WORLD_SIZE")
 
 
 def launched():
     """Whether an mpiexec has started this process."""
-    return any(name in os.environ for name in LAUNCHED)
+    return headcount.told(os.environ) is not None
 
 
+@cache
 def world():
-    """The communicator of all ranks: that of MPI under mpiexec, else `Alone`."""
+    """The communicator of all ranks: that of MPI under mpiexec, else `Alone`.
+
+    All ranks have to call it the first time.
+
+    Raises
+    ------
+    ValueError
+        If MPI cannot be loaded, or knows of fewer processes than the launcher has started.
+    """
     if not launched():
         return Alone()
-    from mpi4py import MPI
-
+    try:
+        from mpi4py import MPI
+    except (ImportError, RuntimeError) as error:
+        reason = " ".join(str(error).split())
+        raise ValueError(
+            f"{headcount.claim(os.environ)}, but MPI cannot be loaded ({reason}); install it with "
+            "'pip install mpi4py mpich', or start without the launcher"
+        ) from error
+    headcount.check(os.environ, MPI.COMM_WORLD.size)
+    Patience.find(MPI.COMM_WORLD)
     return MPI.COMM_WORLD
 
 

@@ -56,7 +56,11 @@ def main(arguments=None):
 
     0: done; 2: bad input, nothing done; 3: the run went wrong; 130: stopped by Ctrl-C.
     """
-    comm = world()
+    try:
+        comm = world()
+    except ValueError as error:  # no ranks that could agree on who says it
+        print(f"mpslab: {error}", file=sys.stderr)
+        return BAD_INPUT
     aside = comm.Dup()
     tell = print if comm.rank == 0 else _silent
     simulation = None

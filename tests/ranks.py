@@ -71,6 +71,14 @@ def sums():
     }
 
 
+def looks():
+    """How often each rank looks for a message before it takes a nap."""
+    from mpslab.communicator import Patience
+    from mpslab.domain import world
+
+    return world().allgather(Patience.looks)
+
+
 def crossing(places):
     """Ranks on which particles stand that moved across several slabs at once, and their ghosts."""
     import numpy as np

@@ -14,7 +14,7 @@ FLOORS = {
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
     "deflation conjugate_gradient piston geometry correction obstacles "
     "gates friction",
-    2: "balance communicator domain rebalance",
+    2: "balance communicator headcount domain rebalance",
     1: "particles neighbors stencil sparse slabs parameters keys plugins bed paddle waves breaking "
     "stopwatch files journal memory",
     0: "kernels",

@@ -179,9 +179,14 @@ def test_instruments_can_neither_come_nor_go(run):
     assert_refused(run, "probe.0.name = None", "stay 'p'", "probes.csv", changes={"probe": []})
 
 
-@pytest.mark.parametrize("old, new, key", [("seed = 0", "seed = 3", "particles.seed = 3"),
-                                           ("depth = 0.04", "depth = 0.05", "tank.depth = 0.05"),
-                                           ('name = "g"', 'name = "h"', "gauge.0.name")])  # fmt: skip
+@pytest.mark.parametrize(
+    "old, new, key",
+    [
+        ("seed = 0", "seed = 3", "particles.seed = 3"),
+        ("depth = 0.04", "depth = 0.05", "tank.depth = 0.05"),
+        ('name = "g"', 'name = "h"', "gauge.0.name"),
+    ],
+)
 def test_edit_by_hand_is_refused_as_well(run, old, new, key):
     edit(run, old, new)
     assert_refused(run, key, "must stay")
