@@ -102,12 +102,23 @@ class Domain:
         return int(self.cuts[rank]) - 1, int(self.cuts[rank + 1])
 
     def take_part(self, particles, method):
-        """This rank's share of all particles, cut by a method of :mod:`mpslab.balance`."""
-        self.slab = self.slabs.of(particles.position[:, 0])
-        work = rebalance.load(method, particles.fluid, self.slab, self.slabs.count)
-        self.cuts = balance.cut(method, work, self.size)
-        self.owned = (self.begin <= self.slab) & (self.slab < self.end)
-        return self.without_ghosts(particles)
+        """This rank's share of the particles that rank 0 has, cut by a method of `mpslab.balance`.
+
+        What the other ranks hand over does not count; it may be a set without particles.
+        """
+        slab = self.slabs.of(particles.position[:, 0])
+        work = rebalance.load(method, particles.fluid, slab, self.slabs.count)
+        self.cuts = balance.cut(method, self.comm.bcast(work), self.size)
+        arrays, shares = arrays_of(particles), [[]] * self.size
+        if self.rank == 0:
+            owner = np.searchsorted(self.cuts, slab, side="right") - 1
+            shares = [np.flatnonzero(owner == r) for r in range(self.size)]
+        mine, shares[0] = np.asarray(shares[0], int), []
+        if self.size > 1:
+            arrays = _merged(arrays, self._exchange(arrays, shares), mine)
+        self.slab = self._slab_of(arrays)
+        self.owned = np.ones(len(self.slab), bool)
+        return ParticleSet(*arrays)
 
     def share_out(self, particles, *companions):
         """Send particles to the ranks that own the slabs they are in, then get the ghosts.

@@ -58,6 +58,10 @@ class Piston:
         bed = (particles.kind == WALL) & (particles.position[:, 0] < near)
         self.bed = particles.gid[bed]
 
+    def share_out(self, comm):
+        """Give all ranks the piston of rank 0, which has seen all particles."""
+        self.gid, self.rest, self.bed = comm.bcast((self.gid, self.rest, self.bed))
+
     def face(self, time):
         """x of the piston's face [m]; 0 without a wavemaker."""
         return self.paddle.displacement(time) if self.paddle else 0.0

@@ -19,7 +19,7 @@ from mpslab.communicator import on_root
 from mpslab.domain import world
 from mpslab.memory import keep_freed
 from mpslab.output import RunFolder
-from mpslab.particles import ParticleSet
+from mpslab.particles import ParticleSet, no_particles
 from mpslab.piston import Piston, make_paddle
 from mpslab.rebalance import Rebalancer
 from mpslab.record import Record
@@ -57,10 +57,9 @@ class Simulation:
     def __init__(self, case, out=None):
         paddle = make_paddle(case)
         files = inputs.of(case)
-        particles = geometry.build_particles(case, paddle.backmost if paddle else 0.0)
-        piston = Piston(particles, paddle, case.particles.spacing)
-        self.at_start = int(np.count_nonzero(particles.fluid))
-        flow = make_flow(case, particles, piston, geometry.period(case))
+        backmost = paddle.backmost if paddle else 0.0
+        flow = _flow(case, paddle, lambda: geometry.build_particles(case, backmost))
+        self.at_start = sum(flow.domain.from_all(int(np.count_nonzero(flow.particles.fluid))))
         settling.settle(flow)
         initial.set_velocity(case, flow.particles, flow.domain.total)
         folder = None if out is None else _on_root(RunFolder.create, out)
@@ -90,12 +89,12 @@ class Simulation:
         """
         folder = _on_root(RunFolder.reopen, folder)
         found = restart.look(folder, changes)
-        case, (arrays, state) = found.case, checkpoint.read(folder.checkpoint)
-        particles = ParticleSet(**arrays)
-        piston = Piston(particles, make_paddle(case), case.particles.spacing)
-        piston.rest, piston.bed = state["piston_rest"], state["piston_bed"]
+        case, state = found.case, found.state
+        flow = _flow(
+            case, make_paddle(case), lambda: ParticleSet(**checkpoint.read(folder.checkpoint)[0])
+        )
+        flow.piston.rest, flow.piston.bed = state["piston_rest"], state["piston_bed"]
         self = cls.__new__(cls)
-        flow = make_flow(case, particles, piston, geometry.period(case))
         self._set_up(flow, folder, found.inputs)
         self.step, self.dt, self.lost = state["step"], state["dt"], state["lost"]
         self.at_start = state["at_start"]
@@ -274,6 +273,13 @@ class Simulation:
         self._record.write_checkpoint(self._state(), name)
         self._record.write_run(outcome, reason)
         self._record.flush()
+
+
+def _flow(case, paddle, make):
+    """The flow of the particles that `make` gives on rank 0: no other holds the whole tank."""
+    particles = on_root(world(), make) or no_particles()
+    piston = Piston(particles, paddle, case.particles.spacing)
+    return make_flow(case, particles, piston, geometry.period(case))
 
 
 def _on_root(make, path):
