@@ -6,12 +6,20 @@ folder has come to and whatever has become of the files themselves, it keeps cop
 
 import hashlib
 import json
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field, fields, replace
 from pathlib import Path
 
 from mpslab.files import replacing
-from mpslab.parameters import FILES
+from mpslab.keys import toml_name
+from mpslab.parameters import TABLES
 
+# Keys that name an input file, (table, key), and the name of its copy in a run folder.
+FILES = {
+    (table, toml_name(item)): item.metadata["copy"]
+    for table, kind in TABLES.items()
+    for item in fields(kind)
+    if "copy" in item.metadata
+}
 DIGITS = 12  # of a checksum, in messages
 
 

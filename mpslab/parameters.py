@@ -343,14 +343,6 @@ TABLES = {
 }
 LISTS = {"water": Water, "obstacle": Obstacle, "gate": Gate, "gauge": Gauge, "probe": Probe}
 
-# Keys that name an input file, (table, key), and the name of its copy in a run folder.
-FILES = {
-    (name, item.name): item.metadata["copy"]
-    for name, kind in TABLES.items()
-    for item in fields(kind)
-    if "copy" in item.metadata
-}
-
 
 @dataclass(frozen=True, kw_only=True)
 class Case:

@@ -71,7 +71,8 @@ def look(folder, overrides=None):
     changes = differences(began, case)
     for key, (old, new) in changes.items():
         if not _free(key):
-            raise CaseError(f"--resume {folder.path}: {key} = {shown(new)}: {_rule(key, old)}")
+            now = "is absent" if new is None else f"= {shown(new)}"
+            raise CaseError(f"--resume {folder.path}: {key} {now}: {_rule(key, old)}")
     if "time.end" in changes and case.time.end <= state["time"]:
         raise CaseError(
             f"--resume {folder.path}: time.end = {case.time.end:g} s: must be > "

@@ -176,7 +176,7 @@ def test_all_else_is_refused_with_key_and_both_values(run, key):
 def test_instruments_can_neither_come_nor_go(run):
     more = [*CASE["gauge"], {"name": "h", "x": 0.1}]
     assert_refused(run, "gauge.1.name = 'h'", "absent", "gauges.csv", changes={"gauge": more})
-    assert_refused(run, "probe.0.name = None", "stay 'p'", "probes.csv", changes={"probe": []})
+    assert_refused(run, "probe.0.name is absent", "stay 'p'", "probes.csv", changes={"probe": []})
 
 
 @pytest.mark.parametrize(
