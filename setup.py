@@ -26,6 +26,8 @@ FLAGS = ["-O3", "-ffast-math", "-fno-finite-math-only"]
 if not PORTABLE:
     FLAGS += ["-march=native", "-mtune=generic"]
 
+CORES = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
 DIRECTIVES = {
     "language_level": 3,
     "boundscheck": CHECKED,
@@ -47,10 +49,10 @@ setup(
         list(extensions()),
         compiler_directives=DIRECTIVES,
         build_dir=f"build/{KIND}/cython",
-        nthreads=os.cpu_count() or 1,
+        nthreads=CORES,
     ),
     options={
-        "build_ext": {"parallel": os.cpu_count() or 1, "force": CHECKED or PORTABLE},
+        "build_ext": {"parallel": CORES, "force": CHECKED or PORTABLE},
         "build": {"build_base": f"build/{KIND}"},
     },
 )

@@ -7,7 +7,6 @@ model against.
 
 import argparse
 import json
-import os
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -15,6 +14,7 @@ import numpy as np
 
 from benchmarks import program
 from benchmarks.model import HERE, ROW_BYTES, coarse_work, make_tank, share_out, slowdown
+from mpslab import communicator
 from mpslab.provenance import environment
 
 ROWS = (10, 100, 1_000, 10_000, 100_000)  # values in the messages that are timed
@@ -180,7 +180,7 @@ def main(arguments=None):
     for name in ("steps", "turns"):
         if getattr(options, name) < 1:
             parser.error(f"--{name} {getattr(options, name)}: must be >= 1")
-    cores, spacing = max(os.cpu_count(), 2), options.spacing
+    cores, spacing = max(len(communicator.cores()), 2), options.spacing
     job = {"changes": {"particles.spacing": spacing}, "warm": 3, "steps": options.steps}
     runs, shared = measure(job, _ranks_up_to(cores), cores, options.turns)
     slabs = len(make_tank(spacing).water)

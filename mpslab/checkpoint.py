@@ -1,6 +1,7 @@
 """Checkpoints: everything that a restart needs, to the byte."""
 
 import io
+from contextlib import contextmanager
 from pathlib import Path
 
 import h5py
@@ -75,18 +76,33 @@ def read(path):
     ValueError
         If the file is missing, damaged, not a checkpoint, or of another version.
     """
+    with _opened(path) as file:
+        return {name: file[name][:] for name in FIELDS}, _state(file)
+
+
+def read_state(path):
+    """The state alone, without the particles; raises as `read` does."""
+    with _opened(path) as file:
+        return _state(file)
+
+
+@contextmanager
+def _opened(path):
+    """The file of a checkpoint; what is wrong with it is a ValueError of one line."""
     path = Path(path)
     if not path.is_file():
         raise ValueError(f"checkpoint '{path}': there is no such file")
     try:
         with h5py.File(path, "r") as file:
             _check_version(path, file.attrs)
-            arrays = {name: file[name][:] for name in FIELDS}
-            state = {key: _value(dataset) for key, dataset in file["state"].items()}
+            yield file
     except (OSError, KeyError, RuntimeError) as error:
         reason = " ".join(str(error).split())
         raise ValueError(f"checkpoint '{path}': damaged, or not a checkpoint ({reason})") from error
-    return arrays, state
+
+
+def _state(file):
+    return {key: _value(dataset) for key, dataset in file["state"].items()}
 
 
 def _check_version(path, attributes):

@@ -1,24 +1,44 @@
-"""The ranks as a group: the group of one, and how to wait for the others."""
+"""The ranks as a group: the group of one, who shares cores, and how to wait for the others."""
 
 import os
+import platform
 import time
 
-# Ranks on this machine; set by the launchers of MPICH and of Open MPI.
-LOCAL_RANKS = ("MPI_LOCALNRANKS", "OMPI_COMM_WORLD_LOCAL_SIZE")
 PAUSE = 2e-5  # s
 
 
-def looks_before_nap(environment):
+def cores():
+    """Numbers of the cores that this process may run on, a set."""
+    if hasattr(os, "sched_getaffinity"):
+        return os.sched_getaffinity(0)
+    return set(range(os.cpu_count() or 1))
+
+
+def looks_before_nap(ranks, cores):
     """Looks at a message that has not come, each a microsecond, before a nap.
 
     Who naps comes late, and all who wait for him nap in their turn: so not in the common waits of a
     step.  But who looks keeps a core busy, and where ranks share one the other could not get on.
+
+    Parameters
+    ----------
+    ranks, cores : int
+        On this machine, and those that they may run on.
     """
-    ranks = next((int(environment[name]) for name in LOCAL_RANKS if name in environment), 1)
-    return 100 if ranks > os.cpu_count() else 30_000
+    return 100 if ranks > cores else 30_000
 
 
-LOOKS = looks_before_nap(os.environ)
+class Patience:
+    """How many looks it takes; `find` sets it, for all ranks together."""
+
+    looks = looks_before_nap(1, 1)
+
+    @classmethod
+    def find(cls, comm):
+        """Count the ranks on this machine and the cores that one or the other may run on."""
+        here = platform.node()
+        found = [theirs for place, theirs in comm.allgather((here, cores())) if place == here]
+        cls.looks = looks_before_nap(len(found), len(set.union(*found)))
 
 
 class Alone:
@@ -55,7 +75,7 @@ def finish(requests):
     for request in requests:
         while not request.Test():
             spins += 1
-            os.sched_yield() if spins < LOOKS else time.sleep(PAUSE)
+            os.sched_yield() if spins < Patience.looks else time.sleep(PAUSE)
 
 
 def all_here(comm, patience=5.0):

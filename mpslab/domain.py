@@ -11,29 +11,44 @@ knows of MPI.
 
 import os
 from dataclasses import fields
+from functools import cache
 
 import numpy as np
 
-from mpslab import balance, rebalance
-from mpslab.communicator import Alone, finish, meet, on_root
+from mpslab import balance, headcount, rebalance
+from mpslab.communicator import Alone, Patience, finish, meet, on_root
 from mpslab.particles import ParticleSet
 from mpslab.stopwatch import COMMUNICATION, WAITING, WORK, Stopwatch
-
-# Set by the launchers of MPICH and of Open MPI.
-LAUNCHED = ("PMI_SIZE", "PMIX_RANK", "OMPI_COMM_WORLD_SIZE")
 
 
 def launched():
     """Whether an mpiexec has started this process."""
-    return any(name in os.environ for name in LAUNCHED)
+    return headcount.told(os.environ) is not None
 
 
+@cache
 def world():
-    """The communicator of all ranks: that of MPI under mpiexec, else `Alone`."""
+    """The communicator of all ranks: that of MPI under mpiexec, else `Alone`.
+
+    All ranks have to call it the first time.
+
+    Raises
+    ------
+    ValueError
+        If MPI cannot be loaded, or knows of fewer processes than the launcher has started.
+    """
     if not launched():
         return Alone()
-    from mpi4py import MPI
-
+    try:
+        from mpi4py import MPI
+    except (ImportError, RuntimeError) as error:
+        reason = " ".join(str(error).split())
+        raise ValueError(
+            f"{headcount.claim(os.environ)}, but MPI cannot be loaded ({reason}); install it with "
+            "'pip install mpi4py mpich', or start without the launcher"
+        ) from error
+    headcount.check(os.environ, MPI.COMM_WORLD.size)
+    Patience.find(MPI.COMM_WORLD)
     return MPI.COMM_WORLD
 
 
@@ -87,12 +102,23 @@ class Domain:
         return int(self.cuts[rank]) - 1, int(self.cuts[rank + 1])
 
     def take_part(self, particles, method):
-        """This rank's share of all particles, cut by a method of :mod:`mpslab.balance`."""
-        self.slab = self.slabs.of(particles.position[:, 0])
-        work = rebalance.load(method, particles.fluid, self.slab, self.slabs.count)
-        self.cuts = balance.cut(method, work, self.size)
-        self.owned = (self.begin <= self.slab) & (self.slab < self.end)
-        return self.without_ghosts(particles)
+        """This rank's share of the particles that rank 0 has, cut by a method of `mpslab.balance`.
+
+        What the other ranks hand over does not count; it may be a set without particles.
+        """
+        slab = self.slabs.of(particles.position[:, 0])
+        work = rebalance.load(method, particles.fluid, slab, self.slabs.count)
+        self.cuts = balance.cut(method, self.comm.bcast(work), self.size)
+        arrays, shares = arrays_of(particles), [[]] * self.size
+        if self.rank == 0:
+            owner = np.searchsorted(self.cuts, slab, side="right") - 1
+            shares = [np.flatnonzero(owner == r) for r in range(self.size)]
+        mine, shares[0] = np.asarray(shares[0], int), []
+        if self.size > 1:
+            arrays = _merged(arrays, self._exchange(arrays, shares), mine)
+        self.slab = self._slab_of(arrays)
+        self.owned = np.ones(len(self.slab), bool)
+        return ParticleSet(*arrays)
 
     def share_out(self, particles, *companions):
         """Send particles to the ranks that own the slabs they are in, then get the ghosts.

@@ -32,7 +32,8 @@ def key(doc, default=dataclasses.MISSING, *, kind="", unit="", name="", **limits
     limits
         low, high: range, ends included; above: lower end, left out; choices: allowed words;
         family: package of models to choose from;
-        forbidden: characters that a text must not hold (such a text must not be empty either).
+        forbidden: characters that a text must not hold (such a text must not be empty either);
+        copy: of a key that names an input file, the name of its copy in a run folder.
     """
     kind = kind or _KINDS.get(type(default), "number")
     metadata = {"doc": doc, "kind": kind, "unit": unit, "name": name, **limits}

@@ -8,6 +8,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from time import monotonic
 
+from mpslab import inputs
 from mpslab.files import replacing
 from mpslab.provenance import environment
 from mpslab.stopwatch import COMMUNICATION, KINDS, PHASES, WAITING
@@ -130,11 +131,12 @@ class RunFolder:
         self.checkpoint = self.path / "checkpoint.h5"
         self.pictures = self.path / "pictures"
         self._tables = {}
-        self._environment = environment()
         self._began = monotonic()
         self._started = _now()
         self._earlier_seconds = 0.0
         self._resumed = 0
+        self._resumes = []
+        self._inputs = ()
 
     @classmethod
     def create(cls, path):
@@ -195,6 +197,7 @@ class RunFolder:
             self._started = earlier["started"]
             self._earlier_seconds = earlier["wall_time [s]"]
             self._resumed = earlier["resumed"] + 1
+            self._resumes = list(earlier.get("resumes", []))
         except (OSError, ValueError, KeyError):
             self._resumed = 1
 
@@ -277,6 +280,27 @@ class RunFolder:
         with replacing(self.case) as draft:
             draft.write_text(text, encoding="utf-8")
 
+    def keep_inputs(self, files):
+        """Name the input files of the run in its record; new ones are copied into the folder.
+
+        Parameters
+        ----------
+        files : tuple of mpslab.inputs.Input
+        """
+        self._inputs = files
+        inputs.keep([item for item in files if item.content is not None], self.path)
+
+    def note_resume(self, step, time, changes):
+        """Note in the record that the run goes on from a step and time [s], with these changes.
+
+        Parameters
+        ----------
+        changes : dict of str to [old, new]
+            By key of the case.
+        """
+        entry = {"date": _now(), "step": step, "time [s]": time, "changes": changes}
+        self._resumes.append(entry)
+
     def write_run(self, outcome, particles, phases, reason=None):
         """Write ``run.json``, in place of the earlier one.
 
@@ -292,11 +316,13 @@ class RunFolder:
             Why the run stopped.
         """
         record = {
-            **self._environment,
+            **environment(),
             "started": self._started,
             "ended": None if outcome == "running" else _now(),
             "wall_time [s]": round(self._earlier_seconds + monotonic() - self._began, 3),
             "resumed": self._resumed,
+            "resumes": self._resumes,
+            "inputs": inputs.record(self._inputs),
             "particles": {name: int(count) for name, count in particles.items()},
             "phases [s]": {name: round(seconds, 3) for name, seconds in phases.items()},
             "outcome": outcome,

@@ -19,8 +19,11 @@ class Paddle:
         Displacement of the face; exactly 0 for t <= 0.
     stroke : float [m]
         Largest less smallest displacement during the run.
-    backmost, foremost : float [m]
-        Smallest and largest displacement during the run.
+    foremost : float [m]
+        Largest displacement during the run.
+    backmost, farthest : float [m]
+        Smallest and largest displacement of the whole motion, whatever the end of the run: by them
+        the bed is laid, and a run that goes on beyond its end finds the bed that it needs.
     height : float [m]
         Wave height that the theory expects of this motion; 0 where it says nothing.
     note : str
@@ -29,13 +32,14 @@ class Paddle:
 
     displacement: Callable[[float], float]
     stroke: float
-    backmost: float
     foremost: float
+    backmost: float
+    farthest: float
     height: float
     note: str
 
 
-def from_motion(motion: Callable, times: np.ndarray, height: float, note: str) -> Paddle:
+def from_motion(motion: Callable, times, height: float, note: str, whole=None) -> Paddle:
     """Paddle of a motion.
 
     Parameters
@@ -46,14 +50,18 @@ def from_motion(motion: Callable, times: np.ndarray, height: float, note: str) -
         Times from 0 to the end of the run among which the extremes are looked for.
     height, note
         As in `Paddle`.
+    whole : (m,) float64 [s], optional
+        Times that cover all of the motion: a period after the soft start, or a whole record. Left
+        out where the run's own show all that it ever does.
     """
-    path = motion(times)
-    backmost, foremost = float(np.min(path)), float(np.max(path))
+    run, always = (motion(t) for t in (times, times if whole is None else whole))
+    stroke, foremost = float(np.max(run) - np.min(run)), float(np.max(run))
+    backmost, farthest = float(np.min(always)), float(np.max(always))
 
     def displacement(t: float) -> float:
         return 0.0 if t <= 0.0 else float(motion(t))
 
-    return Paddle(displacement, foremost - backmost, backmost, foremost, height, note)
+    return Paddle(displacement, stroke, foremost, backmost, farthest, height, note)
 
 
 def sample_times(end: float, period: float) -> np.ndarray:

@@ -148,7 +148,7 @@ class Wavemaker:
     period: float = key("wave period", 0.0, unit="s", low=0)
     stroke: float = key("stroke of the piston; 0 to follow from height", 0.0, unit="m", low=0)
     start: float = key("time in which the motion fades in", 0.0, unit="s", low=0)
-    file: str = key("CSV file of time [s] and displacement [m]", "")
+    file: str = key("CSV file of time [s] and displacement [m]", "", copy="wavemaker.csv")
 
     def __post_init__(self):
         check_table(self)

@@ -70,6 +70,11 @@ class ParticleSet:
         return ParticleSet(**{f.name: getattr(self, f.name).take(rows, 0) for f in fields(self)})
 
 
+def no_particles():
+    """A set without particles."""
+    return make_particles(np.zeros((0, 3)), np.zeros(0))
+
+
 def make_particles(position, kind):
     """Particles at rest, numbered in the order given."""
     n = len(position)

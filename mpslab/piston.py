@@ -54,9 +54,13 @@ class Piston:
         moving = particles.moves_with_piston
         self.gid = particles.gid[moving]
         self.rest = particles.position[moving, 0].copy()
-        near = paddle.foremost + spacing if paddle else -np.inf
+        near = paddle.farthest + spacing if paddle else -np.inf
         bed = (particles.kind == WALL) & (particles.position[:, 0] < near)
         self.bed = particles.gid[bed]
+
+    def share_out(self, comm):
+        """Give all ranks the piston of rank 0, which has seen all particles."""
+        self.gid, self.rest, self.bed = comm.bcast((self.gid, self.rest, self.bed))
 
     def face(self, time):
         """x of the piston's face [m]; 0 without a wavemaker."""

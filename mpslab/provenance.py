@@ -1,15 +1,18 @@
 """What a result was made with: versions, machine, commit."""
 
-import os
 import platform
 import subprocess
 import sys
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from mpslab.communicator import cores
 
+
+@cache
 def environment():
-    """Versions and machine, for the record of a run.
+    """Versions and machine, for the record of a run; worked out once.
 
     Returns
     -------
@@ -26,7 +29,7 @@ def environment():
         "machine": {
             "platform": platform.platform(),
             "cpu": _cpu_model(),
-            "cores": os.cpu_count(),
+            "cores": len(cores()),
         },
         "commit": _commit(Path(__file__).resolve().parents[1]),
     }
@@ -61,7 +64,11 @@ def _commit(folder):
 
 
 def _git(folder, *arguments):
-    """Answer of a git command, None if there is no git or it failed."""
+    """Answer of a git command, None if there is no git or it failed.
+
+    A process that is forked while MPI runs may spoil its memory. Python starts this one by vfork,
+    which copies none of it, and only rank 0 asks.
+    """
     try:
         done = subprocess.run(
             ["git", "-C", folder, *arguments], capture_output=True, text=True, check=False

@@ -57,9 +57,17 @@ class Record:
             path.rename(path.with_suffix(".damaged.vtkhdf"))
             warnings.warn(f"{error}; set aside, the frames begin anew", stacklevel=2)
 
-    def write_case(self, text):
-        """Write `case.toml`."""
-        self._write(lambda: self.folder.write_case(text))
+    def write_case(self, text, files):
+        """Write `case.toml`, and keep copies of the case's input files."""
+        self._write(lambda: [self.folder.keep_inputs(files), self.folder.write_case(text)])
+
+    def note_resume(self, state, changes, text, files):
+        """Note what a run goes on with; `case.toml` is written anew if the case has changed."""
+        self._write(lambda: [
+            self.folder.keep_inputs(files),
+            self.folder.note_resume(state["step"], state["time"], changes),
+            self.folder.write_case(text) if changes else None,
+        ])  # fmt: skip
 
     def add_step(self, **entries):
         """Add a row; the keywords are the keys of `mpslab.output.STEP_COLUMNS`."""

@@ -5,13 +5,22 @@ from collections import Counter
 
 import numpy as np
 
-from mpslab import checkpoint, diagnostics, geometry, initial, settling, timestep
-from mpslab.cases import dumps, load_case
+from mpslab import (
+    checkpoint,
+    diagnostics,
+    geometry,
+    initial,
+    inputs,
+    restart,
+    settling,
+    timestep,
+)
+from mpslab.cases import dumps
 from mpslab.communicator import on_root
 from mpslab.domain import world
 from mpslab.memory import keep_freed
 from mpslab.output import RunFolder
-from mpslab.particles import ParticleSet
+from mpslab.particles import ParticleSet, no_particles
 from mpslab.piston import Piston, make_paddle
 from mpslab.rebalance import Rebalancer
 from mpslab.record import Record
@@ -48,45 +57,58 @@ class Simulation:
 
     def __init__(self, case, out=None):
         paddle = make_paddle(case)
-        particles = geometry.build_particles(case, paddle.backmost if paddle else 0.0)
-        piston = Piston(particles, paddle, case.particles.spacing)
-        self.at_start = int(np.count_nonzero(particles.fluid))
-        flow = make_flow(case, particles, piston, geometry.period(case))
+        files = inputs.of(case)
+        backmost = paddle.backmost if paddle else 0.0
+        flow = _flow(case, paddle, lambda: geometry.build_particles(case, backmost))
+        self.at_start = sum(flow.domain.from_all(int(np.count_nonzero(flow.particles.fluid))))
         settling.settle(flow)
         initial.set_velocity(case, flow.particles, flow.domain.total)
-        self._set_up(case, flow, None if out is None else _on_root(RunFolder.create, out))
-        self._record.write_case(dumps(case))
+        folder = None if out is None else _on_root(RunFolder.create, out)
+        self._set_up(flow, folder, files)
+        self._record.write_case(self._text, files)
         self._record.begin()
         self._record.read_instruments()
         self._record.add_frame()
         self._record.write_checkpoint(self._state())
 
     @classmethod
-    def resume(cls, folder):
+    def resume(cls, folder, changes=None):
         """Go on with the run in a folder from its last checkpoint.
+
+        Parameters
+        ----------
+        folder : str or Path
+        changes : dict, optional
+            Values that replace those of the case, by key: {"time.end": 3.0}. What may change is
+            told in `mpslab.restart`.
 
         Raises
         ------
         ValueError
-            If the folder holds no run, or its checkpoint is damaged.
+            If the folder holds no run, its checkpoint is damaged, an input file is not what it was,
+            or the case differs from that of the checkpoint in what cannot change.
         """
         folder = _on_root(RunFolder.reopen, folder)
-        case = load_case(folder.case)
-        arrays, state = checkpoint.read(folder.checkpoint)
-        particles = ParticleSet(**arrays)
-        piston = Piston(particles, make_paddle(case), case.particles.spacing)
-        piston.rest, piston.bed = state["piston_rest"], state["piston_bed"]
+        found = restart.look(folder, changes)
+        case, state = found.case, found.state
+        flow = _flow(
+            case, make_paddle(case), lambda: ParticleSet(**checkpoint.read(folder.checkpoint)[0])
+        )
+        flow.piston.rest, flow.piston.bed = state["piston_rest"], state["piston_bed"]
         self = cls.__new__(cls)
-        flow = make_flow(case, particles, piston, geometry.period(case))
-        self._set_up(case, flow, folder)
+        self._set_up(flow, folder, found.inputs)
         self.step, self.dt, self.lost = state["step"], state["dt"], state["lost"]
         self.at_start = state["at_start"]
         self._flow.time = state["time"]
         self._record.begin(self.step)
+        self._record.note_resume(state, found.changes, self._text, found.inputs)
         return self
 
-    def _set_up(self, case, flow, folder):
-        self.case = case
+    def _set_up(self, flow, folder, files):
+        case = inputs.pointed(flow.case, files, folder.path) if folder else flow.case
+        self.case = flow.case = case
+        self._files = inputs.to_text(files)
+        self._text = dumps(inputs.pointed(case, files))
         self.step, self.dt, self.lost, self._sides = 0, 0.0, 0, Counter()
         self.stop_requested = False
         self.outcome, self.reason = "running", None
@@ -243,6 +265,8 @@ class Simulation:
             "at_start": self.at_start,
             "piston_rest": self._flow.piston.rest,
             "piston_bed": self._flow.piston.bed,
+            "case": self._text,
+            "inputs": self._files,
         }
 
     def _end(self, outcome, reason):
@@ -252,6 +276,13 @@ class Simulation:
         self._record.write_checkpoint(self._state(), name)
         self._record.write_run(outcome, reason)
         self._record.flush()
+
+
+def _flow(case, paddle, make):
+    """The flow of the particles that `make` gives on rank 0: no other holds the whole tank."""
+    particles = on_root(world(), make) or no_particles()
+    piston = Piston(particles, paddle, case.particles.spacing)
+    return make_flow(case, particles, piston, geometry.period(case))
 
 
 def _on_root(make, path):

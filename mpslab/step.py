@@ -83,7 +83,9 @@ def make_flow(case, particles, piston, width, comm=None):
     Parameters
     ----------
     particles : ParticleSet
-        All particles of the tank; the flow keeps those of this rank.
+        All particles of the tank, on rank 0; the flow keeps those of this rank.
+    piston : Piston
+        Of these particles, on rank 0; all ranks get it.
     width : float [m]
         Period across the tank, 0 when not periodic.
     comm : communicator, optional
@@ -100,6 +102,7 @@ def make_flow(case, particles, piston, width, comm=None):
     laplacian_stencil = make_stencil(dim, spacing, scheme.laplacian_radius, width)
     domain = Domain(slabs_of(case, piston.paddle), comm)
     solver = solver_of(case, domain.size)
+    piston.share_out(domain.comm)
     return Flow(
         case=case,
         particles=domain.take_part(particles, case.parallel.balance),

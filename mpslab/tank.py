@@ -2,12 +2,13 @@
 
 import argparse
 import os
+import shlex
 import signal
 import sys
 import traceback
 from pathlib import Path
 
-from mpslab import cases, launch, pictures
+from mpslab import cases, launch, pictures, restart
 from mpslab.communicator import all_here
 from mpslab.domain import launched, world
 from mpslab.output import RunFolder
@@ -38,7 +39,9 @@ def _parser():
                         help="change a key of the case; may be given several times")  # fmt: skip
     parser.add_argument("--out", metavar="DIR", help="new or empty folder for the results")
     parser.add_argument("--until", type=float, metavar="SECONDS", help="stop at this time")
-    parser.add_argument("--resume", metavar="DIR", help="go on with the run in this folder")
+    parser.add_argument("--resume", metavar="DIR",
+                        help="go on with the run in this folder; with --set time.end=SECONDS "
+                        "beyond its end")  # fmt: skip
     parser.add_argument("--ranks", type=int, metavar="N",
                         help="share the tank out among N processes")  # fmt: skip
     parser.add_argument("--no-pictures", action="store_true", help="draw no pictures at the end")
@@ -53,7 +56,11 @@ def main(arguments=None):
 
     0: done; 2: bad input, nothing done; 3: the run went wrong; 130: stopped by Ctrl-C.
     """
-    comm = world()
+    try:
+        comm = world()
+    except ValueError as error:  # no ranks that could agree on who says it
+        print(f"mpslab: {error}", file=sys.stderr)
+        return BAD_INPUT
     aside = comm.Dup()
     tell = print if comm.rank == 0 else _silent
     simulation = None
@@ -94,8 +101,9 @@ def _prepared(options, arguments, comm, tell):
     if options.show:
         tell(cases.text(options.show), end="")
         return None
-    case = _case(options)
-    _check_until(options.until, case)
+    changes = dict(cases.parse_set(item) for item in options.set)
+    case, since = _case(options, changes)
+    _check_until(options.until, since, case)
     ranks = _ranks(options, comm)
     check_ranks(case, ranks)
     if ranks != comm.size and not options.check:
@@ -103,7 +111,7 @@ def _prepared(options, arguments, comm, tell):
         line = launch.command(ranks, "-m", "mpslab.tank", *line)
         os.execv(line[0], line)
     if options.resume:
-        return Simulation.resume(options.resume)
+        return Simulation.resume(options.resume, changes)
     report = preflight(case)
     if options.check:
         tell(f"{case.name}: {case.title}\n{report.text()}")
@@ -117,18 +125,18 @@ def _silent(*words, **options):
     """What the ranks but the first say."""
 
 
-def _case(options):
-    """The case to run, or of the run to go on with."""
+def _case(options, changes):
+    """The case to run, or of the run to go on with, and the time [s] that the run has reached."""
     if not options.resume:
-        changes = dict(cases.parse_set(item) for item in options.set)
-        return cases.load_case(options.case or DEFAULT_CASE, changes)
-    for name in ("case", "set", "out", "check"):
+        return cases.load_case(options.case or DEFAULT_CASE, changes), 0.0
+    for name in ("case", "out", "check"):
         if getattr(options, name):
             raise ValueError(
                 f"--resume {options.resume}: goes on with the case and in the folder of that "
                 f"run; not allowed together with {'CASE' if name == 'case' else '--' + name}"
             )
-    return cases.load_case(RunFolder.reopen(options.resume).case)
+    found = restart.look(RunFolder.reopen(options.resume), changes)
+    return found.case, found.state["time"]
 
 
 def _ranks(options, comm):
@@ -144,11 +152,18 @@ def _ranks(options, comm):
     return asked
 
 
-def _check_until(until, case):
-    if until is not None and not 0.0 < until <= case.time.end:
-        raise ValueError(
-            f"--until = {until:g} s: must be > 0 and <= time.end = {case.time.end:g} s"
-        )
+def _check_until(until, since, case):
+    end = case.time.end
+    if until is None or since < until <= end:
+        return
+    if since >= end:
+        raise ValueError(f"--until = {until:g} s: the run has reached {_further(end)}")
+    reached = f"{since:.6g} s, the time that the run has reached," if since else "0"
+    raise ValueError(f"--until = {until:g} s: must be > {reached} and <= time.end = {end:g} s")
+
+
+def _further(end):
+    return f"its end, time.end = {end:g} s; --set time.end=SECONDS takes it further"
 
 
 def _free_folder(name):
@@ -170,6 +185,9 @@ def _run(simulation, options, tell):
     ranks = f" on {len(sizes)} ranks (processes {numbers})" if len(sizes) > 1 else ""
     tell(f"{simulation.case.name}: {sum(sizes):,} particles{ranks}, to t = {until:g} s, "
          f"results in {folder}", flush=True)  # fmt: skip
+    if len(sizes) > 1:
+        # Here, for when a process is killed its launcher ends all, and none is left to say it.
+        tell(f"Should a process be killed, go on with\n  {_go_on(folder)}", flush=True)
     earlier = _stop_on_signals(simulation)
     try:
         if tell is print:
@@ -192,6 +210,11 @@ def _run(simulation, options, tell):
     return _report(simulation, options, tell)
 
 
+def _go_on(folder):
+    """The command that goes on with the run in a folder."""
+    return f"python -m mpslab.tank --resume {shlex.quote(str(folder))}"
+
+
 def _reason(error):
     """What the system says about an OSError, in one line."""
     return os.strerror(error.errno) if error.errno else " ".join(str(error).split())
@@ -211,10 +234,14 @@ def _report(simulation, options, tell):
     _tell_cost(simulation, tell)
     if simulation.outcome == "interrupted":
         tell(f"Stopped at t = {simulation.time:.4f} s; go on with\n"
-             f"  python -m mpslab.tank --resume {folder}")  # fmt: skip
+             f"  {_go_on(folder)}")  # fmt: skip
         return INTERRUPTED
-    tell(f"Done: t = {simulation.time:.4f} s after {simulation.step} steps, "
-         f"{simulation.lost} particles lost. Results in {folder}")  # fmt: skip
+    if not len(simulation.steps):
+        end = simulation.case.time.end
+        tell(f"Nothing to do: the run in {folder} has reached {_further(end)}")
+    else:
+        tell(f"Done: t = {simulation.time:.4f} s after {simulation.step} steps, "
+             f"{simulation.lost} particles lost. Results in {folder}")  # fmt: skip
     if tell is print and not options.no_pictures:
         tell("Pictures:", *pictures.draw_run(folder), sep="\n  ")
     return 0

@@ -71,6 +71,33 @@ def sums():
     }
 
 
+def laid_out():
+    """Particles that each rank lays out, and those that it owns, at the start of a run."""
+    from tanks import make_case
+
+    from mpslab import Simulation, geometry
+    from mpslab.domain import world
+
+    build, made = geometry.build_particles, []
+
+    def count(*arguments):
+        particles = build(*arguments)
+        made.append(len(particles))
+        return particles
+
+    geometry.build_particles = count
+    run = Simulation(make_case({"tank.length": 0.16}))
+    return world().allgather((sum(made), len(run.particles)))
+
+
+def looks():
+    """How often each rank looks for a message before it takes a nap."""
+    from mpslab.communicator import Patience
+    from mpslab.domain import world
+
+    return world().allgather(Patience.looks)
+
+
 def crossing(places):
     """Ranks on which particles stand that moved across several slabs at once, and their ghosts."""
     import numpy as np

@@ -1,5 +1,6 @@
 """Small tanks, lattices and clouds of particles that the tests share."""
 
+import csv
 from types import SimpleNamespace
 
 import numpy as np
@@ -124,3 +125,9 @@ def scheme(**changes):
         "collision_distance": 0.5, "restitution": 0.2,
     }  # fmt: skip
     return SimpleNamespace(**{**values, **changes})
+
+
+def csv_rows(path, without=("seconds",)):
+    """Rows of a table but for some columns, a list of dict."""
+    with path.open(newline="", encoding="utf-8") as file:
+        return [{k: v for k, v in r.items() if k not in without} for r in csv.DictReader(file)]

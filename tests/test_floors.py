@@ -9,12 +9,12 @@ ROOT = Path(mpslab.__file__).parent
 FLOORS = {
     6: "tank progress measures launch",
     5: "simulation record watch output checkpoint vtkhdf snapshots overturning gauges pictures "
-    "preflight cases initial provenance diagnostics scatter",
+    "preflight cases initial inputs restart provenance diagnostics scatter",
     4: "step timestep settling",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
     "deflation conjugate_gradient piston geometry correction obstacles "
     "gates friction",
-    2: "balance communicator domain rebalance",
+    2: "balance communicator headcount domain rebalance",
     1: "particles neighbors stencil sparse slabs parameters keys plugins bed paddle waves breaking "
     "stopwatch files journal memory",
     0: "kernels",

@@ -209,6 +209,17 @@ def test_record_of_the_run(folder):
     assert record["resumed"] == 0
 
 
+def test_versions_and_commit_are_asked_for_by_who_writes_the_record_only(tmp_path, monkeypatch):
+    """Other ranks know the folder as well, and must start no git."""
+    asked = []
+    monkeypatch.setattr(output, "environment", lambda: asked.append(1) or {})
+    folder = RunFolder.create(tmp_path / "run")
+    RunFolder(tmp_path / "run")
+    assert asked == []
+    folder.write_run("running", {}, {})
+    assert asked == [1]
+
+
 def test_record_of_a_resumed_run_adds_up(folder):
     folder.write_case('name = "x"\n')
     folder.checkpoint.touch()

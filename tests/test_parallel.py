@@ -1,6 +1,7 @@
 """Runs on several ranks from the command line: the same files, and no end without a word."""
 
 import csv
+import json
 import os
 import re
 import signal
@@ -57,10 +58,22 @@ def alone(tmp_path_factory):
 
 
 def test_ranks_that_share_cores_nap_soon():
-    cores = os.cpu_count()
-    alone = communicator.looks_before_nap({})
-    assert communicator.looks_before_nap({"MPI_LOCALNRANKS": str(cores)}) == alone
-    assert communicator.looks_before_nap({"MPI_LOCALNRANKS": str(cores + 1)}) < alone / 100
+    cores = len(communicator.cores())
+    alone = communicator.looks_before_nap(1, cores)
+    assert communicator.looks_before_nap(cores, cores) == alone
+    assert communicator.looks_before_nap(cores + 1, cores) < alone / 100
+
+
+@pytest.mark.parametrize("share, bind", [(1, []), (2, []), (2, ["-bind-to", "core"])])
+def test_two_ranks_nap_soon_only_where_both_have_one_core(share, bind):
+    """However many the machine has, and where each is bound to a core of its own."""
+    several = sorted(communicator.cores())[:share]
+    if len(several) < share:
+        pytest.skip("needs two cores")
+    mpiexec, *line = launch.command(2, str(ROOT / "tests" / "ranks.py"), "looks")
+    line = ["taskset", "-c", ",".join(map(str, several)), mpiexec, *bind, *line]
+    done = subprocess.run(line, env=environment(), cwd=ROOT, timeout=TIMEOUT, capture_output=True)
+    assert json.loads(done.stdout) == [communicator.looks_before_nap(2, share)] * 2
 
 
 @pytest.mark.parametrize("ranks", [2, 4])
@@ -152,7 +165,9 @@ def test_what_cannot_be_shared_out_is_refused_in_one_line(tmp_path, arguments, m
 def run_until_checkpoint(folder, ranks=2):
     """A run that has left a checkpoint, and the numbers of its ranks' processes."""
     process = tank(*SMALL, "--out", str(folder), "--ranks", str(ranks))
-    first = process.stdout.readline()
+    first, *then = (process.stdout.readline() for _ in range(3))
+    assert "killed, go on with" in then[0]  # said now: a rank that is killed says nothing
+    assert then[1] == f"  python -m mpslab.tank --resume {folder}\n"
     numbers = [int(number) for number in re.findall(r"\d+: (\d+)", first)]
     assert len(numbers) == ranks
     end = time.monotonic() + 60.0

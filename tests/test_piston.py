@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tanks import make_case
+from tanks import flow_of, make_case
 
 from mpslab import geometry
 from mpslab.paddle import from_motion, sample_times
@@ -112,6 +112,17 @@ def test_bed_ahead_of_a_withdrawn_piston_carries_pressure():
     ahead = top & (x > -STROKE) & (x < 0.1)
     assert np.all(particles.kind[ahead] == WALL)
     assert np.count_nonzero(ahead & (x < 0.0)) == round(STROKE / D0)
+
+
+def test_tank_and_bed_to_cover_do_not_depend_on_the_end_of_the_run(tmp_path):
+    (tmp_path / "record.csv").write_text("0,0\n0.5,0.01\n1.0,0.02\n1.6,-0.01\n")
+    changes = {"tank.length": 0.1, "wavemaker.type": "file",
+               "wavemaker.file": str(tmp_path / "record.csv")}  # fmt: skip
+    early, late = (flow_of(make_case({**changes, "time.end": end})) for end in (0.1, 2.0))
+    assert early.particles.position.tobytes() == late.particles.position.tobytes()
+    assert early.piston.bed.tolist() == late.piston.bed.tolist()
+    assert early.domain.slabs == late.domain.slabs
+    assert early.piston.paddle.foremost < late.piston.paddle.foremost
 
 
 def test_bed_is_covered_right_after_particles_were_lost():

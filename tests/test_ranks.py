@@ -54,6 +54,14 @@ def test_sums_are_added_slab_by_slab_on_any_number_of_ranks():
     assert sum(other["sizes"]) == sum(alone["sizes"])
 
 
+def test_rank_0_alone_lays_the_tank_out():
+    (alone,) = start("laid_out", 1)
+    found = start("laid_out", 3)
+    assert [whole for whole, _ in found] == [alone[0], 0, 0]
+    assert sum(mine for _, mine in found) == alone[1]
+    assert all(0 < mine < alone[1] for _, mine in found)
+
+
 def test_particles_that_cross_several_slabs_at_once_arrive_and_ghosts_lie_beside():
     places = [[0, 0.039], [1, 0.021], [300, -0.004], [301, 5.0]]
     found = start("crossing", 4, places)

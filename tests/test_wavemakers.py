@@ -83,6 +83,16 @@ def test_contract_extremes_are_those_until_the_end_of_the_run(build):
     assert motion.foremost == pytest.approx(max(path(motion, np.linspace(0, 0.1, 2001))), abs=1e-8)
 
 
+@pytest.mark.parametrize("start", [0.0, 1.5])
+def test_contract_extremes_of_the_whole_motion_do_not_depend_on_the_end_of_the_run(build, start):
+    early, late = build(start=start, end=0.1), build(start=start, end=9.0)
+    assert (early.backmost, early.farthest) == (late.backmost, late.farthest)
+    x = path(early, np.linspace(0.0, 9.0, 20001))
+    tolerance = 1e-3 * late.stroke + 1e-15
+    assert early.backmost == pytest.approx(np.min(x), abs=tolerance)
+    assert early.farthest == pytest.approx(np.max(x), abs=tolerance)
+
+
 def test_contract_is_the_same_each_time_and_whatever_the_end(build):
     times = np.linspace(0.0, 2.0, 501)
     first = path(build(), times)

@@ -1,10 +1,10 @@
 """The command line: ``python -m validation``."""
 
 import argparse
-import os
 import sys
 from pathlib import Path
 
+from mpslab.communicator import cores
 from validation import judge, report, result, suite
 from validation.display import make_display
 from validation.work import Task, Work
@@ -53,7 +53,7 @@ def main(arguments=None):
         return DONE
     out = options.out or Path("runs") / "validation" / options.suite
     out.mkdir(parents=True, exist_ok=True)
-    jobs = options.jobs or max(os.cpu_count() // options.ranks, 1)
+    jobs = options.jobs or max(len(cores()) // options.ranks, 1)
     try:
         results = run(cases, options.suite, out, Work(jobs, options.ranks))
     except KeyboardInterrupt:

@@ -34,8 +34,9 @@ def least_layers(case: Case) -> int:
 def largest_dt(case: Case) -> float:
     """Largest time step where none is given [s].
 
-    0.2 d0 / sqrt(g h) with the largest depth h, without gravity 0.2 d0 / speed at the start; half of it where the pressure
-    acts at predicted positions, which is stable up to a smaller step. 0 where nothing moves.
+    0.2 d0 / sqrt(g h) with the largest depth h, without gravity 0.2 d0 / speed at the start; half
+    of it where the pressure acts at predicted positions, which is stable up to a smaller step. 0
+    where nothing moves.
     """
     share = 0.1 if case.scheme.projection == "predicted" else 0.2
     speed = sqrt(case.fluid.gravity) * sqrt(case.tank.deepest) or initial_speed(case)

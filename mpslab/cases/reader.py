@@ -7,13 +7,17 @@ from pathlib import Path
 from mpslab.cases.checks import check
 from mpslab.cases.complete import complete
 from mpslab.cases.recipes import RECIPES
+from mpslab.inputs import FILES
 from mpslab.keys import CaseError, check_value, did_you_mean, require_choice, rule, shown, toml_name
 from mpslab.parameters import LISTS, TABLES, Case
 
 
-def loads(source: str, name: str = "case") -> Case:
-    """Case from the text of a TOML file, completed and checked; raises CaseError."""
-    return from_tables(parse(source, name), name)
+def loads(source: str, name: str = "case", folder: Path = Path()) -> Case:
+    """Case from the text of a TOML file, completed and checked; raises CaseError.
+
+    A relative path of an input file counts from `folder`.
+    """
+    return from_tables(with_absolute_file(parse(source, name), folder), name)
 
 
 def parse(source: str, where: str) -> dict:
@@ -53,13 +57,13 @@ def from_tables(tables: dict, name: str = "case") -> Case:
 
 
 def with_absolute_file(tables: dict, folder: Path) -> dict:
-    """The tables, with a relative wavemaker.file taken from a folder."""
-    wavemaker = tables.get("wavemaker")
-    if not isinstance(wavemaker, dict) or not isinstance(wavemaker.get("file"), str | Path):
-        return tables
-    if not str(wavemaker["file"]):
-        return tables
-    return {**tables, "wavemaker": {**wavemaker, "file": str(folder / wavemaker["file"])}}
+    """The tables, with a relative path of an input file taken from a folder."""
+    for table, key in FILES:
+        values = tables.get(table)
+        path = values.get(key) if isinstance(values, dict) else None
+        if isinstance(path, str | Path) and str(path):
+            tables = {**tables, table: {**values, key: str(folder / path)}}
+    return tables
 
 
 def _with_recipe(scheme):

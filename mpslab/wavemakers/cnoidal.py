@@ -30,8 +30,11 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
         f" L/h = {wave.length / depth:.1f} (above 8), m = {wave.m:.5f},"
         f" H L^2/h^3 = {waves.ursell(wave.height, wave.length, depth):.1f}"
     )
-    times = paddle.sample_times(end, wave.period / _sharpness(wave))
-    return paddle.from_motion(motion, times, wave.height, note)
+    times, whole = (
+        paddle.sample_times(t, wave.period / _sharpness(wave))
+        for t in (end, wavemaker.start + wave.period)
+    )
+    return paddle.from_motion(motion, times, wave.height, note, whole)
 
 
 def _wave(wavemaker, depth, gravity):

@@ -32,7 +32,8 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     note = f"recorded motion of {wavemaker.file}: {len(times)} rows, up to t = {times[-1]:g} s"
     # Between rows the motion is monotone, so its extremes lie at rows; a soft start may move them.
     samples = np.concatenate([times[times <= end], np.linspace(0.0, end, 2001)])
-    return paddle.from_motion(motion, samples, wavemaker.height, note)
+    whole = np.concatenate([times, np.linspace(0.0, max(times[-1], wavemaker.start), 2001)])
+    return paddle.from_motion(motion, samples, wavemaker.height, note, whole)
 
 
 def _read(path):

@@ -20,8 +20,10 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
         travel = 0.5 * wave.stroke * (1.0 - np.cos(wave.frequency * t))
         return paddle.soft_start(t, wavemaker.start) * travel
 
-    times = paddle.sample_times(end, wavemaker.period)
-    return paddle.from_motion(motion, times, wave.height, _note(wave))
+    times, whole = (
+        paddle.sample_times(t, wavemaker.period) for t in (end, wavemaker.start + wavemaker.period)
+    )
+    return paddle.from_motion(motion, times, wave.height, _note(wave), whole)
 
 
 def _note(wave):

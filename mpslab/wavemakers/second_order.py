@@ -32,8 +32,10 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
         f"second-order piston (Madsen 1971): H L^2/h^3 = {wave.ursell:.1f}, below"
         f" {breaking.MADSEN_URSELL_LIMIT:.1f}; second harmonic {1e3 * second:.2f} mm"
     )
-    times = paddle.sample_times(end, wavemaker.period)
-    return paddle.from_motion(motion, times, wave.height, note)
+    times, whole = (
+        paddle.sample_times(t, wavemaker.period) for t in (end, wavemaker.start + wavemaker.period)
+    )
+    return paddle.from_motion(motion, times, wave.height, note, whole)
 
 
 def _second_harmonic(wave, depth):

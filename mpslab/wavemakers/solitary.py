@@ -40,7 +40,10 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
         f"solitary wave (Goring 1978): H/h = {ratio:.3f} (below 0.78),"
         f" stroke {2e3 * amplitude:.1f} mm in {2.0 * delay / rate:.2f} s"
     )
-    return paddle.from_motion(motion, paddle.sample_times(end, 1.0 / rate), height, note)
+    times, whole = (
+        paddle.sample_times(t, 1.0 / rate) for t in (end, max(fade, 2.0 * delay / rate))
+    )
+    return paddle.from_motion(motion, times, height, note, whole)
 
 
 def _tail_phase(ratio):

@@ -1,0 +1,116 @@
+"""Going on with a run: the case that its checkpoint belongs to, and what of it may change."""
+
+from dataclasses import dataclass, fields
+
+from mpslab import checkpoint, inputs
+from mpslab.cases import load_case, loads
+from mpslab.keys import CaseError, shown, toml_name
+from mpslab.parameters import LISTS, TABLES, Case
+
+# What neither the state of a run nor its layout follows from; all else is fixed when it begins.
+FREE = ("name", "title", "time.end", "scheme.tolerance", "scheme.max_iterations")
+FREE_TABLES = ("parallel", "output")
+
+# What could change but for the files that the run has begun.
+HELD = {
+    "gauge": "gauges.csv has its columns",
+    "probe": "probes.csv has its columns",
+    "output.fields": "the frames of particles.vtkhdf have their fields",
+}
+
+
+@dataclass(frozen=True)
+class Restart:
+    """What a run goes on with.
+
+    Attributes
+    ----------
+    case : mpslab.parameters.Case
+    state : dict
+        Of the checkpoint, as `mpslab.checkpoint.read` gives it.
+    inputs : tuple of mpslab.inputs.Input
+    changes : dict of str to [old, new]
+        The keys of the case that differ from those of the checkpoint.
+    """
+
+    case: Case
+    state: dict
+    inputs: tuple
+    changes: dict
+
+
+def look(folder, overrides=None):
+    """Find what a run goes on with; writes nothing.
+
+    Parameters
+    ----------
+    folder : mpslab.output.RunFolder
+    overrides : dict, optional
+        Values that replace those of ``case.toml``, by key, as for `mpslab.load_case`.
+
+    Returns
+    -------
+    Restart
+
+    Raises
+    ------
+    ValueError
+        If the checkpoint is damaged or does not hold its case, an input file is not what it was, or
+        the case differs from that of the checkpoint in what cannot change.
+    """
+    state = checkpoint.read_state(folder.checkpoint)
+    if "case" not in state:
+        raise ValueError(
+            f"--resume {folder.path}: the checkpoint is of an earlier mpslab and does not hold the "
+            "case that it belongs to; must be one that does: run the case anew"
+        )
+    files = inputs.from_text(state["inputs"])
+    inputs.check(files, folder.path)
+    case = load_case(folder.case, overrides)
+    began = loads(state["case"], f"the case in {folder.checkpoint}", folder.path.absolute())
+    changes = differences(began, case)
+    for key, (old, new) in changes.items():
+        if not _free(key):
+            now = "is absent" if new is None else f"= {shown(new)}"
+            raise CaseError(f"--resume {folder.path}: {key} {now}: {_rule(key, old)}")
+    if "time.end" in changes and case.time.end <= state["time"]:
+        raise CaseError(
+            f"--resume {folder.path}: time.end = {case.time.end:g} s: must be > "
+            f"{state['time']:g} s, the time that the run has reached"
+        )
+    return Restart(case, state, files, changes)
+
+
+def differences(old, new):
+    """Keys in which two cases differ, a dict of key to [old value, new value]."""
+    before, after = _by_key(old), _by_key(new)
+    keys = dict.fromkeys([*before, *after])
+    return {
+        key: [before.get(key), after.get(key)] for key in keys if before.get(key) != after.get(key)
+    }
+
+
+def _by_key(case):
+    """The values of a case by key: "tank.length", "gauge.0.x"."""
+    values = {"name": case.name, "title": case.title}
+    tables = {name: getattr(case, name) for name in TABLES}
+    for name in LISTS:
+        tables |= {f"{name}.{i}": one for i, one in enumerate(getattr(case, name))}
+    for name, table in tables.items():
+        for item in fields(table):
+            values[f"{name}.{toml_name(item)}"] = getattr(table, item.name)
+    return values
+
+
+def _free(key):
+    return key in FREE or (key.split(".")[0] in FREE_TABLES and key not in HELD)
+
+
+def _rule(key, old):
+    """What the value of a key must be that cannot change, and why."""
+    why = HELD.get(key) or HELD.get(key.split(".")[0])
+    stay = "be absent" if old is None else f"stay {shown(old)}"
+    return (
+        f"must {stay}, as when the run began" + (f", for {why}" if why else "")
+        + f"; what may change: {', '.join([*FREE, *(f'[{name}]' for name in FREE_TABLES)])}"
+    )  # fmt: skip
