@@ -7,7 +7,7 @@ import sys
 import traceback
 from pathlib import Path
 
-from mpslab import cases, launch
+from mpslab import cases, catalogue, launch
 from mpslab.communicator import all_here
 from mpslab.domain import launched, world
 from mpslab.output import RunFolder
@@ -43,6 +43,8 @@ def _parser():
     parser.add_argument("--no-pictures", action="store_true", help="draw no pictures at the end")
     parser.add_argument("--check", action="store_true", help="look at the case, run nothing")
     parser.add_argument("--list", action="store_true", help="list the built-in cases")
+    parser.add_argument("--keys", nargs="?", const="", metavar="TABLE",
+                        help="list the keys of a case, or of one table of it")  # fmt: skip
     parser.add_argument("--show", metavar="CASE", help="print the file of a built-in case")
     return parser
 
@@ -92,6 +94,9 @@ def _prepared(options, arguments, comm, tell):
         return None
     if options.show:
         tell(cases.text(options.show), end="")
+        return None
+    if options.keys is not None:
+        tell(catalogue.text(options.keys or None))
         return None
     case = _case(options)
     _check_until(options.until, case)
@@ -219,7 +224,7 @@ def _report(simulation, options, tell):
     if tell is print and not options.no_pictures:
         from mpslab import pictures
 
-        tell("Pictures:", *pictures.draw_run(folder), sep="\n  ")
+        tell("Pictures:", *pictures.listed(pictures.draw_run(folder)), sep="\n  ")
     return 0
 
 
