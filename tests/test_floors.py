@@ -9,7 +9,7 @@ ROOT = Path(mpslab.__file__).parent
 FLOORS = {
     6: "tank progress measures launch",
     5: "simulation record watch output checkpoint vtkhdf snapshots overturning gauges pictures "
-    "preflight cases initial provenance diagnostics scatter",
+    "preflight cases initial provenance diagnostics scatter headings panels catalogue",
     4: "step timestep settling",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
     "deflation conjugate_gradient piston geometry correction obstacles "
