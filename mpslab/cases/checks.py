@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from mpslab import bed as beds
-from mpslab import gates, geometry, obstacles, plugins
+from mpslab import filling, gates, geometry, obstacles, plugins
 from mpslab.cases.complete import largest_dt
 from mpslab.keys import CaseError, require_choice, shown, toml_name
 from mpslab.parameters import Case
@@ -222,7 +222,7 @@ def _check_obstacles(case):
 
 def _room(case):
     """What the obstacles leave of the water: boxes as pairs of corners [m]."""
-    boxes = [(box.start, box.end) for box in case.water] or [geometry.filled(case)]
+    boxes = [(box.start, box.end) for box in case.water] or [filling.filled(case)]
     return [piece for box in boxes for piece in obstacles.around(case, *box)]
 
 
@@ -230,7 +230,7 @@ def _check_gates(case):
     faces, spacing = gates.faces(case), case.particles.spacing
     slack = 1e-6 * spacing
     _require(
-        not case.gate or any(geometry.columns(case, *piece) for piece in _room(case)),
+        not case.gate or any(filling.columns(case, *piece) for piece in _room(case)),
         "gate",
         [gate.x for gate in case.gate],
         "elsewhere: where these stand there is no room for the water",
