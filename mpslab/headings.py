@@ -29,9 +29,10 @@ def heading(case, text, width=100):
         Name and title; dimensions, particle spacing, wave and models; and the text.
     """
     title = f"{case['name']}: {case['title']}" if case.get("title") else case["name"]
-    setting = "; ".join(part for part in (_resolution(case), wave(case), models(case)) if part)
-    lines = (title, setting, text)
-    return "\n".join(textwrap.fill(line, width) for line in lines)
+    setting = [part for part in (_resolution(case), wave(case)) if part]
+    together = "; ".join([*setting, models(case)])
+    settings = [together] if len(together) <= width else ["; ".join(setting), models(case)]
+    return "\n".join(textwrap.fill(line, width) for line in (title, *settings, text))
 
 
 def _resolution(case):

@@ -56,13 +56,13 @@ def draw_run(folder):
     case = read_case(folder)
     target = folder / "pictures"
     target.mkdir(exist_ok=True)
-    for name in NAMES:
-        (target / f"{name}.png").unlink(missing_ok=True)
     drawn = []
     with matplotlib.rc_context(STYLE):
         for name, figure in _figures(folder, case):
             drawn.append(target / f"{name}.png")
             figure.savefig(drawn[-1])
+    for path in {target / f"{name}.png" for name in NAMES} - set(drawn):
+        path.unlink(missing_ok=True)
     return drawn
 
 
@@ -71,7 +71,7 @@ def listed(drawn):
     lines = [str(path) for path in drawn]
     names = {path.stem for path in drawn}
     if "tank" in names and "breaker" not in names:
-        lines.append("(no breaker.png: no wave overturns, nor does the front of one stand upright)")
+        lines.append("(no breaker.png: no wave is seen to overturn, or to have an upright front)")
     return lines
 
 
