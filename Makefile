@@ -4,7 +4,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 SOURCES := $(shell find mpslab -name '*.pyx' -o -name '*.pxd') setup.py pyproject.toml
 
-.PHONY: help tank test test-checked validation bench lint clean
+.PHONY: help tank test test-checked validation bench pictures lint clean
 
 help:
 	@echo "make tank   build mpslab and run the plunging breaker; pictures land in runs/"
@@ -12,6 +12,7 @@ help:
 	@echo "make test-checked   the unit tests again, every array index in the kernels checked"
 	@echo "make validation     the quick validation suite; its report lands in runs/validation/quick"
 	@echo "make bench  time steps on 1, 2 and 4 ranks; SPACING=0.002 for the paper's resolution"
+	@echo "make pictures   run the tank of docs and draw its pictures anew"
 	@echo "make lint   check the style of the code"
 	@echo "make clean  remove what was built (results in runs/ stay)"
 
@@ -33,6 +34,9 @@ validation: .venv/tested
 SPACING ?= 0.004
 bench: .venv/benched
 	$(BIN)/python -m pytest benchmarks --spacing=$(SPACING) --benchmark-autosave
+
+pictures: .venv/built
+	$(BIN)/python docs/pictures.py
 
 lint: .venv/tested
 	$(BIN)/ruff check .

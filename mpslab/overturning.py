@@ -1,9 +1,9 @@
-"""Where a wave is steepest, and where it overturns: the surface seen from above and from below."""
+"""Where a wave is steepest, and where it breaks: the surface seen from above and from below."""
 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 # Columns of this width hold two particles a layer, so that disorder leaves no gap in the water.
 COLUMN = 2.0  # [spacings]
@@ -12,6 +12,13 @@ GAP = 2.0  # [spacings] between particles, as for the gauges
 COHERENT = 6
 REACH = 2.1  # [spacings]
 JET = 8
+# Water hangs together over such distances.
+LINK = 1.5  # [spacings]
+# A front stands between so many columns of higher water behind and lower water ahead.
+BEHIND, AHEAD = 5, 2
+UPRIGHT = 3.5  # [spacings] between the water behind and ahead
+BROAD = 3  # columns over which a jet hangs; a gap in the sheet of a run-up is narrower
+APART = 4.2  # [spacings] between the parts of a jet
 
 
 @dataclass(frozen=True)
@@ -68,6 +75,111 @@ def find_crest(x, z, speed, spacing):
     return Crest(*map(float, place), len(jet), steepness, float(speed[top[k]]))
 
 
+@dataclass(frozen=True)
+class Front:
+    """A front of water that stands upright or has overturned.
+
+    Attributes
+    ----------
+    x, z : float
+        Middle of the jet, or where the upright front is [m].
+    overturns : bool
+        Whether a jet hangs over air.
+    """
+
+    x: float
+    z: float
+    overturns: bool
+
+
+def find_front(x, z, along, spacing):
+    """The front of a wave that breaks, in a slice x-z.
+
+    It belongs to the largest body of water that hangs together, spray left out. The water behind
+    stands several spacings above that ahead, over a breadth that the sheet of a run-up has not, and
+    overtakes it, which it does not where a column collapses. It overturns where a broad jet hangs
+    over air.
+
+    Parameters
+    ----------
+    x, z : (n,) float [m]
+        Fluid particles of a vertical slice, one spacing thick.
+    along : (n,) float [m/s]
+        Velocity along x.
+    spacing : float
+        Particle spacing [m].
+
+    Returns
+    -------
+    Front, or None
+    """
+    body = _largest_body(x, z, LINK * spacing)
+    x, z, along = x[body], z[body], along[body]
+    if not len(x):
+        return None
+    column, top, hanging = _columns(x, z, spacing)
+    crest = _highest(x, z, spacing)
+    over, under = ((z[rows] / spacing, along[rows]) for rows in (crest, top))
+    drop, k = max(_step(sign, column, over, under) for sign in (1, -1))
+    if drop < UPRIGHT:
+        return None
+    jet = np.flatnonzero(hanging)
+    jet = jet[_is_coherent(x[jet], z[jet], spacing)]
+    jet = jet[_largest_body(x[jet], z[jet], APART * spacing)]
+    over_columns = len(np.unique(np.floor(x[jet] / (COLUMN * spacing))))
+    if len(jet) >= JET and over_columns >= BROAD:
+        return Front(float(x[jet].mean()), float(z[jet].mean()), True)
+    return Front(float(x[crest[k]]), float(z[crest[k]]), False)
+
+
+def _highest(x, z, spacing):
+    """Rows of the highest particle in each column, (c,) int."""
+    number = np.floor(x / (COLUMN * spacing))
+    order = np.lexsort((z, number))
+    return order[np.append(np.diff(number[order]) > 0, True)]
+
+
+def _step(sign, column, over, under):
+    """Largest fall in a direction, +1 or -1, from the top of the water to the surface ahead.
+
+    Parameters
+    ----------
+    sign : int
+    column : (c,) float
+        Places of the columns [spacings].
+    over, under : pair of (c,) float
+        Height [spacings] and velocity along x of the highest particle of each column, and of the
+        one on top of its lowest water.
+
+    Returns
+    -------
+    float [spacings], int
+        The fall, and the number of the column before it; both 0 if there is none.
+    """
+    count = BEHIND + AHEAD
+    if len(column) < count:
+        return 0.0, 0
+    order = np.arange(len(column))[::sign]
+    windows = np.lib.stride_tricks.sliding_window_view(order, count)
+    behind, ahead = windows[:, :BEHIND], windows[:, BEHIND:]
+    drop = over[0][behind].min(axis=1) - under[0][ahead].max(axis=1)
+    unbroken = np.abs(column[windows[:, -1]] - column[windows[:, 0]]) == COLUMN * (count - 1)
+    overtakes = sign * (over[1][behind].mean(axis=1) - under[1][ahead].mean(axis=1)) > 0.0
+    drop = np.where(unbroken & overtakes, drop, 0.0)
+    best = int(np.argmax(drop))
+    return float(drop[best]), int(behind[best, -1])
+
+
+def _largest_body(x, z, reach):
+    """Particles of the largest group in which each is within reach of another, (n,) bool."""
+    if not len(x):
+        return np.zeros(0, bool)
+    pairs = scipy.spatial.cKDTree(np.column_stack([x, z])).query_pairs(reach, output_type="ndarray")
+    graph = scipy.sparse.coo_array((np.ones(len(pairs)), pairs.T), shape=(len(x), len(x)))
+    _, group = scipy.sparse.csgraph.connected_components(graph, directed=False)
+    return group == np.bincount(group).argmax()
+
+
 def _columns(x, z, spacing):
     """Columns with water, the particle on top of the lowest water in each, what hangs over air.
 
@@ -92,7 +204,7 @@ def _is_coherent(x, z, spacing):
     """Whether a particle has enough others around it, (n,) bool."""
     if not len(x):
         return np.zeros(0, bool)
-    tree = cKDTree(np.column_stack([x, z]))
+    tree = scipy.spatial.cKDTree(np.column_stack([x, z]))
     around = tree.query_ball_point(tree.data, REACH * spacing, return_length=True)
     return around >= COHERENT
 

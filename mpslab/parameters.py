@@ -144,11 +144,13 @@ class Wavemaker:
     type: str = key(
         "theory of the piston's motion; none for a fixed wall", "none", family="wavemakers"
     )
-    height: float = key("wave height, crest to trough", 0.0, unit="m", low=0)
-    period: float = key("wave period", 0.0, unit="s", low=0)
+    height: float = key("wave height; 0 where a type needs none", 0.0, unit="m", low=0)
+    period: float = key("wave period; 0 where a type needs none", 0.0, unit="s", low=0)
     stroke: float = key("stroke of the piston; 0 to follow from height", 0.0, unit="m", low=0)
-    start: float = key("time in which the motion fades in", 0.0, unit="s", low=0)
-    file: str = key("CSV file of time [s] and displacement [m]", "", copy="wavemaker.csv")
+    start: float = key("time in which the motion fades in; 0 for none", 0.0, unit="s", low=0)
+    file: str = key(
+        'CSV file of time [s] and displacement [m]; "" for none', "", copy="wavemaker.csv"
+    )
 
     def __post_init__(self):
         check_table(self)

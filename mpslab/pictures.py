@@ -8,13 +8,15 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from mpslab.headings import heading
 from mpslab.snapshots import draw_breaker, draw_tank
 
 # Okabe and Ito's colours, which stay apart for the colour-blind.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 STYLE = {
-    "font.size": 11,
-    "axes.titlesize": 11,
+    "font.size": 12,
+    "axes.titlesize": 12,
+    "figure.titlesize": 13,
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.prop_cycle": matplotlib.cycler(color=COLOURS),
@@ -23,13 +25,17 @@ STYLE = {
     "savefig.dpi": 160,
     "savefig.bbox": "tight",
 }
+NAMES = ("tank", "pressure", "breaker", "gauges", "probes", "energy", "solver")
+MEDIAN = 3  # readings whose median a reading is held against
+OUTLYING = 0.2  # times the range of those medians: a reading farther out is off the scale
 
 
 def draw_run(folder):
     """Draw the pictures of a run into ``pictures`` of its folder.
 
-    ``tank.png`` and ``breaker.png`` (particles), ``gauges.png``, ``probes.png``, ``energy.png`` and
-    ``solver.png``; a picture that the files hold nothing for is left out.
+    ``tank.png``, ``pressure.png`` and ``breaker.png`` (particles), ``gauges.png``, ``probes.png``,
+    ``energy.png`` and ``solver.png``. A picture that the files hold nothing for is left out, and
+    taken away if it is there from an earlier call; so is the breaker where no wave overturns.
 
     Parameters
     ----------
@@ -55,7 +61,18 @@ def draw_run(folder):
         for name, figure in _figures(folder, case):
             drawn.append(target / f"{name}.png")
             figure.savefig(drawn[-1])
+    for path in {target / f"{name}.png" for name in NAMES} - set(drawn):
+        path.unlink(missing_ok=True)
     return drawn
+
+
+def listed(drawn):
+    """The pictures that were drawn, a line each, and why there is none of a breaker."""
+    lines = [str(path) for path in drawn]
+    names = {path.stem for path in drawn}
+    if "tank" in names and "breaker" not in names:
+        lines.append("(no breaker.png: no wave is seen to overturn, or to have an upright front)")
+    return lines
 
 
 def _figures(folder, case):
@@ -63,6 +80,8 @@ def _figures(folder, case):
     particles = folder / "particles.vtkhdf"
     if particles.exists():
         yield "tank", draw_tank(particles, case)
+        if "pressure" in case["output"]["fields"] and case["fluid"]["gravity"]:
+            yield "pressure", draw_tank(particles, case, "pressure")
         breaker = draw_breaker(particles, case)
         if breaker:
             yield "breaker", breaker
@@ -121,17 +140,55 @@ def _column(entries):
 
 def _stack(count, case, title, height=2.0):
     """Figure of panels above each other with a common axis of time."""
-    figure = Figure(figsize=(9.0, 1.2 + height * count), layout="constrained")
+    figure = Figure(figsize=(10.0, 1.8 + height * count), layout="constrained")
     axes = figure.subplots(count, 1, sharex=True, squeeze=False)[:, 0]
     for ax in axes:
         ax.grid(color="0.9", linewidth=0.6)
     axes[-1].set_xlabel("time [s]")
-    figure.suptitle(f"{case.get('title') or case['name']}\n{title}")
+    figure.suptitle(heading(case, title))
     return figure, axes
+
+
+def _draw_reading(ax, time, values, unit):
+    """Readings of an instrument; what is off the scale of the others is marked at its edge."""
+    ax.plot(time, values)
+    low, high = _limits(values)
+    if not low < high:
+        return
+    for beyond, edge, marker in ((values > high, high, "^"), (values < low, low, "v")):
+        if beyond.any():
+            extreme = float(f"{values[beyond].max() if edge == high else values[beyond].min():.3g}")
+            ax.plot(time[beyond], np.full(np.count_nonzero(beyond), edge), marker, color=COLOURS[1],
+                    markersize=6, linestyle="", clip_on=False,
+                    label=f"off the scale, to {extreme:,g} {unit}",
+                    )  # fmt: skip
+    margin = 0.05 * (high - low)
+    ax.set_ylim(low - margin, high + margin)
+
+
+def _limits(values):
+    """Least and largest reading, without lone readings far from all medians of their neighbours."""
+    values = values[np.isfinite(values)]
+    if len(values) < MEDIAN:
+        return (values.min(), values.max()) if len(values) else (0.0, 0.0)
+    medians = np.median(np.lib.stride_tricks.sliding_window_view(values, MEDIAN), axis=1)
+    low, high = medians.min(), medians.max()
+    reach = OUTLYING * (high - low)
+    inside = values[(values >= low - reach) & (values <= high + reach)]
+    return inside.min(), inside.max()
+
+
+def _place(instrument, case, axes):
+    """Name and place of a gauge or probe, of an axis that the tank has."""
+    axes = [axis for axis in axes if axis != "y" or case["tank"]["width"]]
+    where = ", ".join(f"{axis} = {instrument[axis]:g} m" for axis in axes if axis in instrument)
+    return f"{instrument['name']}, {where}"
 
 
 def draw_gauges(gauges, case):
     """Surface elevation above still water against time, one panel for each gauge.
+
+    Where the water of the case is in boxes of its own, the level above z = 0 in its stead.
 
     Parameters
     ----------
@@ -145,14 +202,16 @@ def draw_gauges(gauges, case):
     matplotlib Figure
     """
     time, *names = gauges
-    places = {f"{gauge['name']} [m]": gauge["x"] for gauge in case.get("gauge", ())}
-    figure, axes = _stack(len(names), case, "Surface elevation above still water", height=1.6)
+    places = {f"{gauge['name']} [m]": _place(gauge, case, "xy") for gauge in case.get("gauge", ())}
+    boxes = bool(case.get("water"))
+    zero, what = (0.0, "level") if boxes else (case["tank"]["depth"], "elevation")
+    title = "Water level above z = 0" if boxes else "Surface elevation above still water"
+    figure, axes = _stack(len(names), case, f"{title} at the gauges; no line where it is dry", 1.6)
     for ax, name in zip(axes, names, strict=True):
         ax.axhline(0.0, color="0.6", linewidth=0.8)
-        ax.plot(gauges[time], gauges[name] - case["tank"]["depth"])
-        place = f", x = {places[name]:g} m" if name in places else ""
-        ax.set_title(name.removesuffix(" [m]") + place, loc="left")
-        ax.set_ylabel("elevation [m]")
+        _draw_reading(ax, gauges[time], gauges[name] - zero, "m")
+        _name(ax, places.get(name, name.removesuffix(" [m]")))
+        ax.set_ylabel(f"{what} [m]")
     return figure
 
 
@@ -170,13 +229,22 @@ def draw_probes(probes, case):
     -------
     matplotlib Figure
     """
+    places = {probe["name"]: _place(probe, case, "xyz") for probe in case.get("probe", ())}
     pressures = [name for name in probes if name.endswith(" pressure [Pa]")]
-    figure, axes = _stack(len(pressures), case, "Pressure", height=1.6)
+    figure, axes = _stack(len(pressures), case, "Pressure at the probes", height=1.6)
     for ax, name in zip(axes, pressures, strict=True):
-        ax.plot(probes["time [s]"], probes[name])
-        ax.set_title(name.removesuffix(" pressure [Pa]"), loc="left")
+        _draw_reading(ax, probes["time [s]"], probes[name], "Pa")
+        name = name.removesuffix(" pressure [Pa]")
+        _name(ax, places.get(name, name))
         ax.set_ylabel("pressure [Pa]")
     return figure
+
+
+def _name(ax, text):
+    """Name of a panel, and the legend of what is off its scale, over its top edge."""
+    ax.set_title(text, loc="left")
+    if ax.get_legend_handles_labels()[0]:
+        ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0, ncols=2)
 
 
 def draw_energy(steps, case):

@@ -8,12 +8,11 @@ import sys
 import traceback
 from pathlib import Path
 
-from mpslab import cases, launch, pictures, restart
+from mpslab import cases, catalogue, launch, restart
 from mpslab.communicator import all_here
 from mpslab.domain import launched, world
 from mpslab.output import RunFolder
 from mpslab.preflight import check_ranks, preflight
-from mpslab.progress import make_progress
 from mpslab.simulation import Simulation
 from mpslab.watch import RunFailed
 
@@ -47,6 +46,8 @@ def _parser():
     parser.add_argument("--no-pictures", action="store_true", help="draw no pictures at the end")
     parser.add_argument("--check", action="store_true", help="look at the case, run nothing")
     parser.add_argument("--list", action="store_true", help="list the built-in cases")
+    parser.add_argument("--keys", nargs="?", const="", metavar="TABLE",
+                        help="list the keys of a case, or of one table of it")  # fmt: skip
     parser.add_argument("--show", metavar="CASE", help="print the file of a built-in case")
     return parser
 
@@ -100,6 +101,9 @@ def _prepared(options, arguments, comm, tell):
         return None
     if options.show:
         tell(cases.text(options.show), end="")
+        return None
+    if options.keys is not None:
+        tell(catalogue.text(options.keys or None))
         return None
     changes = dict(cases.parse_set(item) for item in options.set)
     case, since = _case(options, changes)
@@ -176,6 +180,8 @@ def _free_folder(name):
 
 
 def _run(simulation, options, tell):
+    from mpslab.progress import make_progress
+
     folder = simulation.folder.path
     until = simulation.case.time.end if options.until is None else options.until
     found = simulation.domain.from_all((len(simulation.particles), os.getpid()))
@@ -243,7 +249,9 @@ def _report(simulation, options, tell):
         tell(f"Done: t = {simulation.time:.4f} s after {simulation.step} steps, "
              f"{simulation.lost} particles lost. Results in {folder}")  # fmt: skip
     if tell is print and not options.no_pictures:
-        tell("Pictures:", *pictures.draw_run(folder), sep="\n  ")
+        from mpslab import pictures
+
+        tell("Pictures:", *pictures.listed(pictures.draw_run(folder)), sep="\n  ")
     return 0
 
 

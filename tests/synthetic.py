@@ -19,10 +19,29 @@ depth = {depth}
 width = {width}
 bed = {bed}
 
+[fluid]
+density = 1000.0
+gravity = 9.81
+
+[initial]
+type = "rest"
+amplitude = 0.0
+
+[wavemaker]
+type = "linear"
+height = 0.03
+period = 0.777
+stroke = 0.0
+
 [particles]
 spacing = {spacing}
 
+[scheme]
+recipe = "standard"
+gradient = "corrected"
+
 [output]
+fields = ["velocity", "pressure"]
 pictures = {pictures}
 
 [[gauge]]
@@ -32,6 +51,12 @@ x = 0.2
 [[gauge]]
 name = "g2"
 x = 0.4
+
+[[probe]]
+name = "p1"
+x = 0.2
+y = 0.0
+z = 0.01
 """
 
 

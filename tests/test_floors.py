@@ -9,10 +9,11 @@ ROOT = Path(mpslab.__file__).parent
 FLOORS = {
     6: "tank progress measures launch",
     5: "simulation record watch output checkpoint vtkhdf snapshots overturning gauges pictures "
-    "preflight cases initial inputs restart provenance diagnostics scatter",
+    "preflight cases initial inputs restart provenance diagnostics scatter headings panels "
+    "catalogue",
     4: "step timestep settling",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
-    "deflation conjugate_gradient piston geometry correction obstacles "
+    "deflation conjugate_gradient piston geometry filling correction obstacles "
     "gates friction",
     2: "balance communicator headcount domain rebalance",
     1: "particles neighbors stencil sparse slabs parameters keys plugins bed paddle waves breaking "

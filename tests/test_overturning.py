@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mpslab.overturning import find_crest
+from mpslab.overturning import find_crest, find_front
 
 D0 = 0.002
 
@@ -72,3 +72,54 @@ def test_disordered_water_has_no_jet():
 
 def test_single_particle():
     assert find_crest(np.array([0.3]), np.array([0.1]), np.array([1.0]), D0).steepness == 0.0
+
+
+def front_of(*pieces, along=lambda x, z: z):
+    """The front of pieces of water whose velocity grows upwards."""
+    x, z = np.concatenate(pieces, axis=1)
+    order = np.random.default_rng(0).permutation(len(x))
+    return find_front(x[order], z[order], along(x, z)[order], D0)
+
+
+HIGH_WATER = block(40, 30), block(60, 15, x0=40)
+
+
+def test_a_front_that_stands_upright_over_water_is_found():
+    front = front_of(*HIGH_WATER)
+    assert not front.overturns
+    assert (front.x, front.z) == pytest.approx((40 * D0, 30 * D0), abs=2 * D0)
+    mirrored = front_of(*HIGH_WATER, along=lambda x, z: -z)
+    assert mirrored is None, "it would run backwards"
+
+
+def test_a_front_with_a_jet_overturns():
+    front = front_of(*HIGH_WATER, block(8, 3, x0=40, z0=27))
+    assert front.overturns
+    assert front.x == pytest.approx(44 * D0, abs=2 * D0)
+
+
+def test_a_column_that_collapses_is_no_breaker():
+    assert front_of(*HIGH_WATER, along=lambda x, z: x) is None
+
+
+def test_water_over_a_dry_bed_is_no_breaker():
+    assert front_of(block(40, 30)) is None
+
+
+def test_the_sheet_of_a_run_up_on_a_wall_is_no_breaker():
+    flat, sheet = block(100, 10), block(4, 40, x0=96, z0=10)
+    assert front_of(flat, sheet, along=lambda x, z: -z) is None
+    hole = ~((sheet[1] > 20 * D0) & (sheet[1] < 24 * D0) & (sheet[0] < 98 * D0))
+    assert front_of(flat, sheet[:, hole], along=lambda x, z: -z) is None
+
+
+def test_spray_is_no_breaker():
+    rng = np.random.default_rng(1)
+    drops = np.stack([rng.uniform(0, 100, 20), rng.uniform(24, 60, 20)]) * D0
+    assert front_of(block(100, 20), drops) is None
+    assert front_of(block(100, 20), block(10, 3, x0=50, z0=30)) is None, "a drop in the air"
+
+
+def test_flat_water_and_none_have_no_front():
+    assert front_of(block(100, 20)) is None
+    assert find_front(*np.empty((3, 0)), D0) is None

@@ -7,9 +7,10 @@ import pytest
 from matplotlib.image import imread
 from synthetic import write_run
 
-from mpslab import pictures, snapshots, vtkhdf
+from mpslab import cases, headings, pictures, snapshots, vtkhdf
+from mpslab import panels as panels_of
 from mpslab.output import RunFolder
-from mpslab.particles import FLUID, make_particles
+from mpslab.particles import DUMMY, FLUID, GATE, GATE_DUMMY, WALL, make_particles
 
 SPACING = 0.004
 
@@ -25,9 +26,9 @@ def case(folder):
 
 
 def test_all_pictures_are_drawn(tmp_path):
-    folder = write_run(tmp_path / "run", spacing=SPACING, frames=26)
+    folder = write_run(tmp_path / "run", spacing=0.002, frames=26)
     drawn = pictures.draw_run(folder.path)
-    names = ["tank", "breaker", "gauges", "probes", "energy", "solver"]
+    names = ["tank", "pressure", "breaker", "gauges", "probes", "energy", "solver"]
     assert drawn == [folder.pictures / f"{name}.png" for name in names]
     for path in drawn:
         assert imread(path)[..., :3].std() > 0.05, f"{path.name} is blank"
@@ -48,6 +49,100 @@ def test_folder_without_a_case_is_named(tmp_path, text):
         (tmp_path / "case.toml").write_text(text)
     with pytest.raises(ValueError, match=r"case\.toml"):
         pictures.draw_run(tmp_path)
+
+
+def text_of(figure):
+    """The heading as one line."""
+    return " ".join(figure.get_suptitle().split())
+
+
+def test_every_picture_says_what_was_run(folder, case):
+    steps = pictures.read_table(folder.path / "steps.csv")
+    gauges, probes = (pictures.read_table(folder.path / f"{n}.csv") for n in ("gauges", "probes"))
+    case["scheme"] |= {"gradient": "mps", "smagorinsky": 0.12}
+    for figure in (
+        snapshots.draw_tank(folder.particles, case),
+        snapshots.draw_tank(folder.particles, case, "pressure"),
+        pictures.draw_gauges(gauges, case),
+        pictures.draw_probes(probes, case),
+        pictures.draw_energy(steps, case),
+        pictures.draw_solver(steps, case),
+    ):
+        for words in ("drawn: Plunging breaker", "2-D", "$d_0$ = 4 mm", "H = 30 mm, T = 0.777 s",
+                      "recipe standard with gradient mps, smagorinsky 0.12"):  # fmt: skip
+            assert words in text_of(figure), words
+
+
+@pytest.mark.parametrize(
+    ("maker", "initial", "words"),
+    [
+        ({"type": "none"}, {}, ""),
+        ({"type": "solitary", "height": 0.018}, {}, "solitary wave, H = 18 mm"),
+        ({"type": "linear", "stroke": 0.05, "period": 1.5}, {},
+         "linear wave, stroke = 50 mm, T = 1.5 s"),
+        ({"type": "file", "file": "/some/where/paddle.csv"}, {}, "piston after paddle.csv"),
+        ({"type": "none"}, {"type": "standing_wave", "amplitude": 0.004},
+         "standing wave, a = 4 mm"),
+    ],
+)  # fmt: skip
+def test_the_heading_tells_the_wave(maker, initial, words):
+    maker = {"height": 0.0, "period": 0.0, "stroke": 0.0} | maker
+    assert headings.wave({"wavemaker": maker, "initial": {"type": "rest"} | initial}) == words
+
+
+def test_heading_of_every_built_in_case_names_its_recipe():
+    for name in cases.names():
+        case = tomllib.loads(cases.dumps(cases.load_case(name)))
+        other = " with wall_slip false, smagorinsky 0.12" if name == "dam_break" else ""
+        assert headings.models(case) == "recipe standard" + other
+        case = tomllib.loads(cases.dumps(cases.load_case(name, {"scheme.recipe": "paper"})))
+        assert headings.models(case) == "recipe paper" + other
+
+
+def norms(figure):
+    """Limits of the colours of the water in the panels."""
+    water = [ax.collections[-1] for ax in panels(figure).values()]
+    return {(one.norm.vmin, one.norm.vmax, one.get_cmap().name) for one in water}
+
+
+def test_colours_are_those_of_the_case_in_every_picture(tmp_path):
+    run = write_run(tmp_path / "run", spacing=0.002, frames=26)
+    case = tomllib.loads(run.case.read_text())
+    ends = set()
+    for recipe, times in (("standard", [0.0]), ("paper", [0.3, 1.2])):
+        case["scheme"]["recipe"], case["output"]["pictures"] = recipe, times
+        ends |= norms(snapshots.draw_tank(run.particles, case))
+    ends |= norms(snapshots.draw_breaker(run.particles, case))
+    (speed,) = ends
+    assert speed == (0.0, pytest.approx(np.sqrt(9.81 * 0.04)), "viridis")
+    (pressure,) = norms(snapshots.draw_tank(run.particles, case, "pressure"))
+    assert pressure == (0.0, pytest.approx(1.2 * 9810 * 0.04), "plasma")
+
+
+@pytest.mark.parametrize(
+    ("name", "end"),
+    [("dam_break", 2), ("hydrostatic", 0.05), ("plunging_breaker", 1), ("regular_waves", 0.5),
+     ("solitary_runup", 1), ("standing_wave", 0.2)],
+)  # fmt: skip
+def test_speed_ends_at_a_round_part_of_the_long_wave_speed(name, end):
+    case = tomllib.loads(cases.dumps(cases.load_case(name)))
+    assert panels_of.make_scale(case, "speed").end == pytest.approx(end)
+
+
+def test_the_legend_names_every_solid_that_is_seen(tmp_path, folder, case):
+    def legend(figure):
+        return [text.get_text() for text in figure.legends[0].get_texts()]
+
+    assert legend(snapshots.draw_tank(folder.particles, case)) == [
+        "wall", "piston", "still water level"
+    ]  # fmt: skip
+    kinds = [FLUID, FLUID, WALL, DUMMY, WALL, GATE, GATE_DUMMY]
+    places = np.array([[0.01 * k, 0.0, 0.0] for k in range(len(kinds))])
+    path = tmp_path / "p.vtkhdf"
+    vtkhdf.ParticleSeries(path, []).append(0.0, make_particles(places, kinds))
+    case["obstacle"] = [{"from": [0.035, 0.0, -0.005], "to": [0.045, 0.0, 0.005]}]
+    case["water"] = [{"from": [0.0, 0.0, 0.0], "to": [0.02, 0.0, 0.02]}]
+    assert legend(snapshots.draw_tank(path, case)) == ["water", "wall", "obstacle", "gate"]
 
 
 def panels(figure):
@@ -101,6 +196,16 @@ def test_gentle_waves_have_no_breaker(tmp_path):
     assert snapshots.draw_breaker(run.particles, tomllib.loads(run.case.read_text())) is None
 
 
+def test_a_picture_that_is_no_longer_due_is_taken_away(tmp_path):
+    run = write_run(tmp_path / "run", spacing=SPACING, frames=4, breaks=False)
+    run.pictures.mkdir()
+    (run.pictures / "breaker.png").write_bytes(b"of an earlier run")
+    drawn = pictures.draw_run(run.path)
+    assert not (run.pictures / "breaker.png").exists()
+    assert "no breaker.png" in pictures.listed(drawn)[-1]
+    assert pictures.listed([*drawn, run.pictures / "breaker.png"])[-1].endswith("breaker.png")
+
+
 def test_frames_without_velocity_are_drawn_in_one_colour(tmp_path, folder, case):
     path = tmp_path / "p.vtkhdf"
     particles = make_particles(np.random.default_rng(0).random((50, 3)) * [1, 0, 0.1], [FLUID] * 50)
@@ -129,6 +234,47 @@ def test_gauges_are_drawn_above_still_water_and_broken_where_dry(folder, case):
     assert first[0] == "g1, x = 0.2 m"
     np.testing.assert_allclose(first[1].lines[-1].get_ydata(), table["g1 [m]"] - 0.04)
     assert np.isnan(second[1].lines[-1].get_ydata()[-1])
+
+
+def test_probes_are_drawn_with_name_and_place(folder, case):
+    table = pictures.read_table(folder.path / "probes.csv")
+    (axes,) = panels(pictures.draw_probes(table, case)).values()
+    assert axes.get_title(loc="left") == "p1, x = 0.2 m, z = 0.01 m"
+    assert axes.get_ylabel() == "pressure [Pa]"
+    case["tank"]["width"] = 0.1
+    (axes,) = panels(pictures.draw_probes(table, case)).values()
+    assert axes.get_title(loc="left") == "p1, x = 0.2 m, y = 0 m, z = 0.01 m"
+
+
+@pytest.mark.parametrize("at", [0, 1, 500, 999])
+def test_a_lone_reading_sets_no_scale_and_is_marked(folder, case, at):
+    table = pictures.read_table(folder.path / "probes.csv")
+    name = "p1 pressure [Pa]"
+    low, high = table[name].min(), table[name].max()
+    table[name][at] = 40_000.0
+    (axes,) = panels(pictures.draw_probes(table, case)).values()
+    bottom, top = axes.get_ylim()
+    assert low - 0.2 * (high - low) < bottom <= low and high - 20 < top < high + 20
+    line, marks = axes.lines
+    np.testing.assert_array_equal(line.get_ydata(), table[name])
+    assert marks.get_xdata() == [table["time [s]"][at]]
+    assert axes.get_legend().get_texts()[0].get_text() == "off the scale, to 40,000 Pa"
+
+
+def test_a_peak_of_several_readings_stays_on_the_scale(folder, case):
+    table = pictures.read_table(folder.path / "probes.csv")
+    table["p1 pressure [Pa]"][500:503] = 9_000.0
+    (axes,) = panels(pictures.draw_probes(table, case)).values()
+    assert axes.get_ylim()[1] > 9_000.0 and axes.get_legend() is None
+
+
+def test_the_level_of_water_in_boxes_counts_from_the_bed(folder, case):
+    case["water"] = [{"from": [0.0, 0.0, 0.0], "to": [0.1, 0.0, 0.04]}]
+    table = pictures.read_table(folder.path / "gauges.csv")
+    figure = pictures.draw_gauges(table, case)
+    axes = panels(figure)["g1, x = 0.2 m"]
+    np.testing.assert_array_equal(axes.lines[-1].get_ydata(), table["g1 [m]"])
+    assert "above z = 0" in text_of(figure)
 
 
 def test_energy_starts_at_that_of_the_motion(folder, case):

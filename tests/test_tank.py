@@ -6,6 +6,9 @@ import signal
 import subprocess
 import sys
 import time
+import tomllib
+from importlib.metadata import EntryPoint
+from pathlib import Path
 
 import pytest
 
@@ -163,3 +166,12 @@ def test_killed_run_goes_on_from_its_last_checkpoint(tmp_path):
     process.communicate(timeout=60)
     assert tank.main(["--resume", str(out), "--until", "0.3"]) == 0
     assert json.loads((out / "run.json").read_text())["resumed"] == 1
+
+
+def test_the_command_mpslab_is_the_tank_and_hands_on_its_status(capsys):
+    pyproject = Path(__file__).parents[1] / "pyproject.toml"
+    script = tomllib.loads(pyproject.read_text(encoding="utf-8"))["project"]["scripts"]["mpslab"]
+    main = EntryPoint("mpslab", script, "console_scripts").load()
+    assert main is tank.main
+    assert main(["--list"]) == 0
+    assert main(["no_such_case"]) == 2

@@ -62,7 +62,7 @@ def _check_models(case):
                 value = getattr(table, item.name)
                 words = value if isinstance(value, tuple) else (value,)
                 for word in words:
-                    require_choice(f"{name}.{toml_name(item)}", word, _models(item.metadata))
+                    require_choice(f"{name}.{toml_name(item)}", word, models(item.metadata))
     scheme = case.scheme
     _require(
         scheme.surface == "marked" or scheme.walls == "extrapolated",
@@ -72,7 +72,8 @@ def _check_models(case):
     )
 
 
-def _models(metadata):
+def models(metadata):
+    """Names that a key of a family of models may have, from the metadata of its field."""
     choices = plugins.names(metadata["family"])
     return ("none", *choices) if metadata["family"] == "wavemakers" else choices
 

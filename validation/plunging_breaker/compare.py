@@ -230,7 +230,7 @@ def _scatter(run, frame, place):
 
 
 def _show_particles(result, runs):
-    """Pictures of each run where a wave overturns first, or is steep and fast."""
+    """Pictures of each run where a wave overturns first, or its front stands upright."""
     for name, run in runs.items():
         with matplotlib.rc_context(STYLE):
             drawn = draw_breaker(run.folder / "particles.vtkhdf", run.case)

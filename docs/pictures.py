@@ -1,0 +1,82 @@
+"""Makes the pictures of the tank in docs again: ``python docs/pictures.py [NAME ...]``.
+
+Runs what is not there yet, in runs/docs, and writes a PNG of each; docs/scaling.png comes from
+``python -m benchmarks.model``.
+"""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib
+
+from mpslab.pictures import STYLE, read_case
+from mpslab.snapshots import draw_breaker, draw_tank
+
+DOCS = Path(__file__).parent
+RUNS = DOCS.parent / "runs" / "docs"
+LARGEST = 300_000  # bytes
+DPI = range(120, 60, -5)
+
+# The paper's height. Times are those at which the waves break, and some between.
+PAPER = {"wavemaker.height": 0.0196, "particles.spacing": 0.002, "output.interval": 0.0125}
+SLICE = PAPER | {"tank.width": 0.0}
+THREE_WAVES = {"time.end": 2.3, "output.pictures": [0.9, 1.0375, 1.4125, 1.4375, 1.5, 2.2125]}
+TWO_WAVES = {"time.end": 1.6, "output.pictures": [0.6, 0.9, 1.0375, 1.125, 1.4375, 1.5]}
+CMPS = {"scheme.recipe": "paper"}
+CHANGES = {
+    "standard": SLICE | THREE_WAVES,
+    "standard-3d": PAPER | THREE_WAVES,
+    "paper": SLICE | TWO_WAVES | CMPS,
+    "mps": SLICE | TWO_WAVES | CMPS | {"scheme.gradient": "mps"},
+}
+# Name of the picture, its run, and what draws it.
+PICTURES = {
+    "tank-196": ("standard", draw_tank),
+    "tank-paper": ("paper", draw_tank),
+    "tank-mps": ("mps", draw_tank),
+    "tank": ("standard-3d", draw_tank),
+    "breaker": ("standard-3d", draw_breaker),
+}
+
+
+def run(name):
+    """Folder of a finished run; goes on with one that has begun."""
+    folder = RUNS / name
+    line = [sys.executable, "-m", "mpslab.tank", "--no-pictures"]
+    if (folder / "checkpoint.h5").exists():
+        line += ["--resume", folder]
+    else:
+        line += ["plunging_breaker", "--out", folder]
+        line += [f"--set={key}={value}" for key, value in CHANGES[name].items()]
+    subprocess.run(line, check=True)
+    return folder
+
+
+def save(figure, path):
+    """Write a figure as PNG, at the highest resolution at which the file is small enough."""
+    for dpi in DPI:
+        figure.savefig(path, dpi=dpi, pil_kwargs={"optimize": True}, metadata={"Software": None})
+        if path.stat().st_size <= LARGEST:
+            return
+    raise SystemExit(f"{path}: more than {LARGEST} bytes at {dpi} dots an inch")
+
+
+def main(names):
+    """Make the pictures of these names, or all."""
+    unknown = set(names) - set(PICTURES)
+    if unknown:
+        raise SystemExit(f"{', '.join(sorted(unknown))}: must be out of {', '.join(PICTURES)}")
+    for name in names or PICTURES:
+        source, draw = PICTURES[name]
+        folder = run(source)
+        with matplotlib.rc_context(STYLE):
+            figure = draw(folder / "particles.vtkhdf", read_case(folder))
+            if figure is None:
+                raise SystemExit(f"{name}: no wave breaks in {folder}")
+            save(figure, DOCS / f"{name}.png")
+        print(DOCS / f"{name}.png")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
