@@ -4,7 +4,6 @@ import io
 from contextlib import contextmanager
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 from mpslab.files import replacing
@@ -31,6 +30,8 @@ def write(path, particles, state):
     TypeError
         If HDF5 cannot hold a value of ``state``.
     """
+    import h5py
+
     order = np.argsort(particles.gid, kind="stable")
     # In memory first: HDF5 does not survive a disk that is full.
     content = io.BytesIO()
@@ -89,6 +90,8 @@ def read_state(path):
 @contextmanager
 def _opened(path):
     """The file of a checkpoint; what is wrong with it is a ValueError of one line."""
+    import h5py
+
     path = Path(path)
     if not path.is_file():
         raise ValueError(f"checkpoint '{path}': there is no such file")

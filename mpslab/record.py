@@ -4,7 +4,7 @@ import warnings
 
 import numpy as np
 
-from mpslab import diagnostics, gauges
+from mpslab import checkpoint, diagnostics, gauges
 from mpslab.output import PROBE_QUANTITIES, STEP_COLUMNS
 from mpslab.particles import KIND_NAMES
 
@@ -167,8 +167,6 @@ class Record:
             self.write_run("running")
 
     def _write_state(self, particles, state, name):
-        from mpslab import checkpoint
-
         self.folder.flush()
         path = self.folder.path / name if name else self.folder.checkpoint
         checkpoint.write(path, particles, state)

@@ -5,7 +5,7 @@ from collections import Counter
 
 import numpy as np
 
-from mpslab import diagnostics, geometry, initial, inputs, restart, settling, timestep
+from mpslab import checkpoint, diagnostics, geometry, initial, inputs, restart, settling, timestep
 from mpslab.cases import dumps
 from mpslab.communicator import on_root
 from mpslab.domain import world
@@ -79,8 +79,6 @@ class Simulation:
             If the folder holds no run, its checkpoint is damaged, an input file is not what it was,
             or the case differs from that of the checkpoint in what cannot change.
         """
-        from mpslab import checkpoint
-
         folder = _on_root(RunFolder.reopen, folder)
         found = restart.look(folder, changes)
         case, state = found.case, found.state
