@@ -6,7 +6,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from mpslab.files import replacing
+from mpslab.files import needing, replacing
 
 FORMAT = "mpslab checkpoint"
 VERSION = 1
@@ -29,6 +29,8 @@ def write(path, particles, state):
     ------
     TypeError
         If HDF5 cannot hold a value of ``state``.
+    DiskFull
+        If there is no room for it; the earlier one stays.
     """
     order = np.argsort(particles.gid, kind="stable")
     # In memory first: HDF5 does not survive a disk that is full.
@@ -41,7 +43,7 @@ def write(path, particles, state):
         group = file.create_group("state")
         for key, value in state.items():
             _store(group, key, value)
-    with replacing(path) as draft:
+    with needing(path, len(content.getbuffer())), replacing(path) as draft:
         draft.write_bytes(content.getbuffer())
 
 
@@ -75,18 +77,33 @@ def read(path):
     ValueError
         If the file is missing, damaged, not a checkpoint, or of another version.
     """
+    def everything(file):
+        return {name: file[name][:] for name in FIELDS}, _state(file)
+
+    return _read(path, everything)
+
+
+def read_state(path):
+    """The state alone; parameters and errors as for `read`."""
+    return _read(path, _state)
+
+
+def _state(file):
+    return {key: _value(dataset) for key, dataset in file["state"].items()}
+
+
+def _read(path, find):
+    """What a function finds in the file."""
     path = Path(path)
     if not path.is_file():
         raise ValueError(f"checkpoint '{path}': there is no such file")
     try:
         with h5py.File(path, "r") as file:
             _check_version(path, file.attrs)
-            arrays = {name: file[name][:] for name in FIELDS}
-            state = {key: _value(dataset) for key, dataset in file["state"].items()}
+            return find(file)
     except (OSError, KeyError, RuntimeError) as error:
         reason = " ".join(str(error).split())
         raise ValueError(f"checkpoint '{path}': damaged, or not a checkpoint ({reason})") from error
-    return arrays, state
 
 
 def _check_version(path, attributes):

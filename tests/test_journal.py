@@ -73,8 +73,8 @@ def test_a_kill_at_any_write_loses_at_most_the_frame_in_hand(tmp_path, monkeypat
     monkeypatch.setattr(journal, "recover", lambda path: None)
     particles.position[:] += 1.0
     series.append(0.2, particles)
-    held = journal._journal(path).read_bytes()
-    size, pieces = journal._read_journal(journal._journal(path))
+    held = journal.journal_of(path).read_bytes()
+    size, pieces = journal._read_journal(journal.journal_of(path))
     assert path.read_bytes() == before
     assert len(pieces) > 10
     monkeypatch.setattr(journal, "recover", recover)
@@ -83,13 +83,13 @@ def test_a_kill_at_any_write_loses_at_most_the_frame_in_hand(tmp_path, monkeypat
         for offset, piece in pieces[:done]:
             half[offset : offset + len(piece)] = piece
         path.write_bytes(half)
-        journal._journal(path).write_bytes(held)
+        journal.journal_of(path).write_bytes(held)
         vtkhdf.truncate(path, 0.15)
         assert vtkhdf.read_times(path).tolist() == [0.0, 0.1]
         for index in (0, 1):
             frame = vtkhdf.read_frame(path, index)
             assert np.array_equal(frame["position"], (particles.position - 1.0).astype("f4"))
-    journal._journal(path).write_bytes(held)
+    journal.journal_of(path).write_bytes(held)
     journal.recover(path)
     assert len(vtkhdf.read_times(path)) == 3
     assert path.stat().st_size == size
