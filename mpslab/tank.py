@@ -7,13 +7,15 @@ import sys
 import traceback
 from pathlib import Path
 
-from mpslab import cases, launch, pictures
+from mpslab import cases, checkpoint, launch, pictures
 from mpslab.communicator import all_here
 from mpslab.domain import launched, world
+from mpslab.files import FULL, DiskFull
 from mpslab.output import RunFolder
 from mpslab.preflight import check_ranks, preflight
 from mpslab.progress import make_progress
-from mpslab.simulation import Simulation
+from mpslab.simulation import Simulation, take
+from mpslab.terminal import unbroken
 from mpslab.watch import RunFailed
 
 DEFAULT_CASE = "plunging_breaker"
@@ -53,6 +55,11 @@ def main(arguments=None):
 
     0: done; 2: bad input, nothing done; 3: the run went wrong; 130: stopped by Ctrl-C.
     """
+    with unbroken():
+        return _main(arguments)
+
+
+def _main(arguments):
     comm = world()
     aside = comm.Dup()
     tell = print if comm.rank == 0 else _silent
@@ -95,7 +102,7 @@ def _prepared(options, arguments, comm, tell):
         tell(cases.text(options.show), end="")
         return None
     case = _case(options)
-    _check_until(options.until, case)
+    _check_until(options.until, case, options.resume)
     ranks = _ranks(options, comm)
     check_ranks(case, ranks)
     if ranks != comm.size and not options.check:
@@ -110,7 +117,12 @@ def _prepared(options, arguments, comm, tell):
         return None
     for warning in report.warnings:
         tell(f"Warning: {warning}", file=sys.stderr)
-    return Simulation(case, options.out or comm.bcast(_free_folder(case.name)))
+    # Before the water is settled, which takes its time: nobody else is to have the folder.
+    if options.out:
+        folder = take(RunFolder.create, options.out)
+    else:
+        folder = take(RunFolder.create_next, Path("runs") / case.name)
+    return Simulation(case, folder)
 
 
 def _silent(*words, **options):
@@ -128,7 +140,7 @@ def _case(options):
                 f"--resume {options.resume}: goes on with the case and in the folder of that "
                 f"run; not allowed together with {'CASE' if name == 'case' else '--' + name}"
             )
-    return cases.load_case(RunFolder.reopen(options.resume).case)
+    return cases.load_case(RunFolder.find(options.resume).case)
 
 
 def _ranks(options, comm):
@@ -144,20 +156,15 @@ def _ranks(options, comm):
     return asked
 
 
-def _check_until(until, case):
-    if until is not None and not 0.0 < until <= case.time.end:
+def _check_until(until, case, resumed):
+    if until is None:
+        return
+    start = checkpoint.read_state(RunFolder(resumed).checkpoint)["time"] if resumed else 0.0
+    if not (until > 0.0 and start <= until <= case.time.end):
+        least = f">= {start} s, which the run has reached," if start else "> 0"
         raise ValueError(
-            f"--until = {until:g} s: must be > 0 and <= time.end = {case.time.end:g} s"
+            f"--until = {until:g} s: must be {least} and <= time.end = {case.time.end:g} s"
         )
-
-
-def _free_folder(name):
-    """runs/NAME, or runs/NAME-2 and so on where there is one already."""
-    folder, number = Path("runs") / name, 1
-    while folder.exists():
-        number += 1
-        folder = Path("runs") / f"{name}-{number}"
-    return folder
 
 
 def _run(simulation, options, tell):
@@ -174,17 +181,22 @@ def _run(simulation, options, tell):
     try:
         if tell is print:
             with make_progress(until, simulation.time) as progress:
-                simulation.run(until, progress)
+                simulation.run(options.until, progress)
         else:
-            simulation.run(until)
+            simulation.run(options.until)
     except RunFailed as failure:
-        tell(f"mpslab: run stopped: {failure}\nThe state to look at is in {folder / 'failed.h5'}; "
-             f"the last good one in {folder / 'checkpoint.h5'}", file=sys.stderr)  # fmt: skip
+        notes = getattr(failure, "__notes__", None)
+        state = notes[0] if notes else f"The state to look at is in {folder / 'failed.h5'}"
+        tell(f"mpslab: run stopped: {failure}\n{state}; the last good one is in "
+             f"{folder / 'checkpoint.h5'}", file=sys.stderr)  # fmt: skip
         return FAILED
     except OSError as error:
         tell(f"mpslab: run stopped: {folder} cannot be written ({_reason(error)}) after step "
              f"{simulation.step}, t = {simulation.time:.6g} s; the last checkpoint there is good",
              file=sys.stderr)  # fmt: skip
+        if error.errno in FULL:
+            tell(f"Free space, then go on with\n  python -m mpslab.tank --resume {folder}",
+                 file=sys.stderr)  # fmt: skip
         return FAILED
     finally:
         for number, handler in earlier.items():
@@ -194,6 +206,8 @@ def _run(simulation, options, tell):
 
 def _reason(error):
     """What the system says about an OSError, in one line."""
+    if isinstance(error, DiskFull):
+        return error.strerror
     return os.strerror(error.errno) if error.errno else " ".join(str(error).split())
 
 

@@ -8,7 +8,7 @@ import subprocess
 import numpy as np
 import pytest
 
-from mpslab import output, provenance
+from mpslab import output, provenance, tables
 from mpslab.output import CsvTable, RunFolder
 
 STEPS_HEADER = (
@@ -136,7 +136,7 @@ def test_row_of_wrong_length_is_refused(tmp_path):
 
 def test_rows_are_on_disk_after_a_second_or_a_flush(tmp_path, monkeypatch):
     clock = [0.0]
-    monkeypatch.setattr(output, "monotonic", lambda: clock[0])
+    monkeypatch.setattr(tables, "monotonic", lambda: clock[0])
     table = CsvTable(tmp_path / "t.csv", ["a"])
     table.append([1])
     assert rows(table.path) == [["a"]]
@@ -215,6 +215,7 @@ def test_record_of_a_resumed_run_adds_up(folder):
     folder.write_run("interrupted", {}, {})
     earlier = json.loads(folder.run.read_text()) | {"wall_time [s]": 1000.0}
     folder.run.write_text(json.dumps(earlier | {"started": "2020-01-01T00:00:00+00:00"}))
+    folder.close()
     RunFolder.reopen(folder.path).write_run("finished", {}, {})
     record = json.loads(folder.run.read_text())
     assert record["started"].startswith("2020")
@@ -226,6 +227,7 @@ def test_damaged_record_does_not_hinder_a_resume(folder):
     folder.write_case("")
     folder.checkpoint.touch()
     folder.run.write_text("{")
+    folder.close()
     RunFolder.reopen(folder.path).write_run("finished", {}, {})
     assert json.loads(folder.run.read_text())["resumed"] == 1
 
