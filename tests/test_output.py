@@ -8,7 +8,7 @@ import subprocess
 import numpy as np
 import pytest
 
-from mpslab import output, provenance, tables
+from mpslab import output, pictures, provenance, tables
 from mpslab.output import CsvTable, RunFolder
 
 STEPS_HEADER = (
@@ -119,6 +119,22 @@ def test_resumed_tables_are_those_of_an_uninterrupted_run(folder, tmp_path):
     for name in ("steps", "phases", "gauges", "probes", "lost"):
         whole, pieces = ((f.path / f"{name}.csv").read_bytes() for f in (folder, resumed))
         assert pieces == whole
+
+
+def test_a_reader_leaves_out_a_row_that_has_no_end_wherever_it_is_cut(folder):
+    write_steps(folder, range(1, 4))
+    folder.close()
+    for name in ("steps", "gauges", "probes", "lost"):
+        path = folder.path / f"{name}.csv"
+        whole, text = pictures.read_table(path), path.read_text()
+        ends = [k + 1 for k, letter in enumerate(text) if letter == "\n"]
+        for cut in range(len(text)):
+            path.write_text(text[:cut])
+            count = max(sum(end <= cut for end in ends) - 1, 0)
+            found = pictures.read_table(path)
+            assert set(found) == (set(whole) if count else set())
+            for column, entries in found.items():
+                np.testing.assert_array_equal(entries, whole[column][:count])
 
 
 def test_resumed_table_with_other_columns_is_refused(tmp_path):
