@@ -129,11 +129,17 @@ def _write_journal(path, held):
     parts = [HEAD.pack(MAGIC, held.size, len(held.pieces))]
     for offset, piece in held.pieces:
         parts += [ENTRY.pack(offset, len(piece)), piece]
-    content = b"".join(parts)
-    with needing(path, 2 * len(content)), replacing(journal_of(path)) as draft:
-        descriptor = os.open(draft, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
+    check = 0
+    for part in parts:
+        check = zlib.crc32(part, check)
+    parts.append(CHECK.pack(check))
+    needed = 2 * sum(map(len, parts))  # in the journal, and in the file
+    with needing(path, needed), replacing(journal_of(path)) as draft:
+        descriptor, place = os.open(draft, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666), 0
         try:
-            write_at(descriptor, 0, content + CHECK.pack(zlib.crc32(content)))
+            for part in parts:
+                write_at(descriptor, place, part)
+                place += len(part)
         finally:
             os.close(descriptor)
 

@@ -259,11 +259,12 @@ class Simulation:
         self._take_out_lost()
         check_step(self._flow, report, self.dt, self.step)
         check_lost(self._flow, self.lost, self.at_start, self.step)
+        seconds = self.domain.from_all(clock.perf_counter() - began)[0]
         with self.stopwatch.phase("record"):
             self._record.add_step(
                 step=self.step, time=self.time, dt=self.dt, dt_limit=limit,
                 iterations=report.iterations, residual=report.residual, lost=self.lost,
-                seconds=clock.perf_counter() - began, **self._record.measures(before),
+                seconds=seconds, **self._record.measures(before),
             )  # fmt: skip
         # Before the checkpoint, for the rows up to its step have to be there after a kill.
         if self.step % self.case.parallel.rebalance_every == 0:

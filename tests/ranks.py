@@ -100,7 +100,7 @@ def series(changes):
     from mpslab.simulation import Simulation
 
     run = Simulation(make_case(changes)).run()
-    mine = {name: getattr(run, name).tolist() for name in ("gauges", "probes")}
+    mine = {name: getattr(run, name).tolist() for name in ("steps", "gauges", "probes")}
     return run.domain.from_all(mine)
 
 

@@ -179,9 +179,12 @@ def test_series_cost_nothing_to_look_at_and_stay_as_they_were():
 
 def test_series_are_the_same_on_all_ranks():
     changes = {**QUICK, "tank.length": 0.16, "scheme.solver": "scg"}
-    alone = start("series", 1, changes)
-    assert len(alone) == 1 and len(alone[0]["gauges"]) > 1 and len(alone[0]["probes"]) > 1
-    assert start("series", 2, changes) == alone * 2
+    (alone,), (first, second) = (start("series", ranks, changes) for ranks in (1, 2))
+    assert first == second
+    for name in ("gauges", "probes"):
+        assert len(alone[name]) > 1
+        assert first[name] == alone[name]
+    assert len(first["steps"]) == len(alone["steps"])
 
 
 def command(*arguments, stdout, stderr=subprocess.PIPE):

@@ -1,6 +1,7 @@
 """A folder has one run at a time: the second is refused at once, and nothing is touched."""
 
 import csv
+import errno
 import gc
 import json
 import os
@@ -104,6 +105,17 @@ def test_a_lock_in_a_folder_made_anew_is_not_removed_by_the_earlier_holder(tmp_p
     with pytest.raises(InUse):
         FolderLock(folder)
     later.release()
+
+
+def test_a_file_system_without_locks_is_said_and_no_hindrance(tmp_path, monkeypatch):
+    def unknown(*arguments):
+        raise OSError(errno.ENOLCK, os.strerror(errno.ENOLCK))
+
+    monkeypatch.setattr(lock.fcntl, "flock", unknown)
+    with pytest.warns(UserWarning, match=r"not held against other runs, .+ \(No locks available\)"):
+        held = FolderLock(tmp_path)
+    held.release()
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_many_processes_that_take_turns_never_meet(tmp_path):
