@@ -206,7 +206,7 @@ class Simulation:
             raise
         finally:
             self._record.let_go()
-        if raised:
+        if raised is not None:
             raise raised
         return self
 
@@ -241,7 +241,7 @@ class Simulation:
     def _stop(self, raised=None):
         """Outcome and reason, the same on all ranks, if the run is to stop here; else None."""
         mine = STOPPED if self.stop_requested else None
-        found = self.domain.from_all(_ending(raised) if raised else mine)
+        found = self.domain.from_all(mine if raised is None else _ending(raised))
         return next(filter(None, found), None)
 
     def advance(self):

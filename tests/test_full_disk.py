@@ -153,6 +153,19 @@ def assert_same(folder, other):
         assert all(np.array_equal(a[name], b[name]) for name in b)
 
 
+def test_resume_sets_a_damaged_journal_aside_with_its_file(tmp_path):
+    Simulation(make_case(FRAMED), tmp_path / "run").run(until=0.01)
+    path = tmp_path / "run/particles.vtkhdf"
+    journal.journal_of(path).write_bytes(b"cut off")
+    before = path.read_bytes()
+    with pytest.warns(UserWarning, match="journal': damaged.+ set aside, the frames begin anew"):
+        Simulation.resume(tmp_path / "run").run()
+    aside = path.with_suffix(".damaged.vtkhdf")
+    assert aside.read_bytes() == before
+    assert journal.journal_of(aside).read_bytes() == b"cut off"
+    assert vtkhdf.read_times(path)[0] > 0.01
+
+
 def test_a_run_goes_on_to_the_same_data_wherever_its_frames_meet_a_full_disk(
     tmp_path, monkeypatch, undisturbed
 ):
