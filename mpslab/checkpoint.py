@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab.files import replacing
+from mpslab.files import needing, replacing
 
 FORMAT = "mpslab checkpoint"
 VERSION = 1
@@ -29,6 +29,8 @@ def write(path, particles, state):
     ------
     TypeError
         If HDF5 cannot hold a value of ``state``.
+    DiskFull
+        If there is no room for it; the earlier one stays.
     """
     import h5py
 
@@ -43,7 +45,7 @@ def write(path, particles, state):
         group = file.create_group("state")
         for key, value in state.items():
             _store(group, key, value)
-    with replacing(path) as draft:
+    with needing(path, len(content.getbuffer())), replacing(path) as draft:
         draft.write_bytes(content.getbuffer())
 
 

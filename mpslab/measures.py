@@ -16,6 +16,7 @@ from mpslab.overturning import JET, find_crest
 from mpslab.particles import FLUID, WALL
 from mpslab.pictures import read_case, read_table
 from mpslab.snapshots import middle_slice
+from mpslab.terminal import unbroken
 
 BAD_INPUT = 2
 SETTLED = 0.25  # share of the run after which means are taken
@@ -187,6 +188,11 @@ def write(path, rows):
 
 def main(arguments=None):
     """Run the command line; returns the exit status, 0 or 2 for bad input."""
+    with unbroken():
+        return _main(arguments)
+
+
+def _main(arguments):
     parser = argparse.ArgumentParser(prog="python -m mpslab.measures", description=__doc__)
     parser.add_argument("folder", type=Path, help="folder of a run")
     folder = parser.parse_args(arguments).folder

@@ -1,17 +1,18 @@
 """The run folder: tables, the resolved case, and the record of the run."""
 
-import csv
 import json
 import os
-import tempfile
+from contextlib import suppress
 from datetime import UTC, datetime
+from itertools import count
 from pathlib import Path
 from time import monotonic
 
-from mpslab import inputs
-from mpslab.files import replacing
+from mpslab import inputs, lock
+from mpslab.files import remove_drafts, replacing
 from mpslab.provenance import environment
 from mpslab.stopwatch import COMMUNICATION, KINDS, PHASES, WAITING
+from mpslab.tables import CsvTable
 
 STEP_COLUMNS = {
     "step": "step",
@@ -50,71 +51,11 @@ LOST_COLUMNS = ("step", "time [s]", "gid", "x [m]", "y [m]", "z [m]", "reason")
 PROBE_QUANTITIES = ("pressure [Pa]", "u [m/s]", "v [m/s]", "w [m/s]")
 
 
-class CsvTable:
-    """A table of rows that are added at its end, on the disk a second later at most.
-
-    Numbers are written so that reading them back gives the same bits.
-
-    Parameters
-    ----------
-    path : str or Path
-        The file.
-    columns : sequence of str
-        The header. The first column never falls from row to row: a step or a time.
-    last : float, optional
-        Keep the rows of an existing file whose first entry is not above this, and go on after
-        them. Without it the table starts empty.
-
-    Raises
-    ------
-    ValueError
-        If an existing table that is to go on has other columns.
-    """
-
-    def __init__(self, path, columns, last=None):
-        self.path = Path(path)
-        self.columns = tuple(columns)
-        kept = [] if last is None else self._rows_until(last)
-        with replacing(self.path) as draft, draft.open("w", newline="", encoding="utf-8") as file:
-            csv.writer(file, lineterminator="\n").writerows([self.columns, *kept])
-        self._file = self.path.open("a", newline="", encoding="utf-8")
-        self._writer = csv.writer(self._file, lineterminator="\n")
-        self._flushed = monotonic()
-
-    def _rows_until(self, last):
-        """Whole rows of the file up to a step or time; a kill may have cut the last one short."""
-        if not self.path.exists():
-            return []
-        with self.path.open(newline="", encoding="utf-8") as file:
-            lines = [line for line in file if line.endswith("\n")]
-        header, *rows = csv.reader(lines) if lines else [self.columns]
-        if tuple(header) != self.columns:
-            raise ValueError(
-                f"{self.path}: columns are {','.join(header)}, but the run writes "
-                f"{','.join(self.columns)}"
-            )
-        return [row for row in rows if float(row[0]) <= last]
-
-    def append(self, row):
-        """Add a row of numbers and strings, one for each column."""
-        if len(row) != len(self.columns):
-            raise ValueError(f"{self.path}: {len(row)} entries for {len(self.columns)} columns")
-        self._writer.writerow(row)
-        if monotonic() - self._flushed >= 1.0:
-            self.flush()
-
-    def flush(self):
-        """Hand all rows to the operating system, where a kill of the process spares them."""
-        self._file.flush()
-        self._flushed = monotonic()
-
-    def close(self):
-        """Write what is left and close the file."""
-        self._file.close()
-
-
 class RunFolder:
-    """The files of one run; make it with `create` or `reopen`.
+    """The files of one run; make it with `create`, `create_next` or `reopen`, which hold it.
+
+    No other run can have the folder until it is let go of, the object is forgotten, or the process
+    ends. Made by the name alone, it is not held, and is not to be written to.
 
     Attributes
     ----------
@@ -130,6 +71,7 @@ class RunFolder:
         self.particles = self.path / "particles.vtkhdf"
         self.checkpoint = self.path / "checkpoint.h5"
         self.pictures = self.path / "pictures"
+        self._lock, self._made = None, []
         self._tables = {}
         self._began = monotonic()
         self._started = _now()
@@ -140,7 +82,7 @@ class RunFolder:
 
     @classmethod
     def create(cls, path):
-        """A new run folder.
+        """A new run folder, held.
 
         Parameters
         ----------
@@ -155,18 +97,49 @@ class RunFolder:
         path = Path(path)
         if path.exists() and not path.is_dir():
             raise _bad_out(path, "is a file")
+        made = _missing(path)
         try:
             path.mkdir(parents=True, exist_ok=True)
-            if any(path.iterdir()):
-                raise _bad_out(path, "is not empty")
-            tempfile.TemporaryFile(dir=path).close()
         except OSError as error:
-            raise _bad_out(path, f"cannot be written ({error.strerror})") from error
-        return cls(path)
+            raise _bad_out(path, _why(error)) from error
+        return cls._taken(path, made)
 
     @classmethod
-    def reopen(cls, path):
-        """The folder of an earlier run, to go on with it.
+    def create_next(cls, path):
+        """A new run folder, held, at a path or the first of path-2, path-3 that is free.
+
+        Raises
+        ------
+        ValueError
+            If nothing can be written there.
+        """
+        for number in count(1):
+            free = Path(path if number == 1 else f"{path}-{number}")
+            made = _missing(free)
+            try:
+                free.parent.mkdir(parents=True, exist_ok=True)
+                free.mkdir()
+            except OSError as error:
+                if os.path.lexists(free):
+                    continue
+                raise _bad_out(free, _why(error)) from error
+            return cls._taken(free, made)
+
+    @classmethod
+    def _taken(cls, path, made):
+        """The folder, held, if it is empty; `made` are those that were not there before."""
+        folder = cls(path)
+        folder._made = made
+        try:
+            folder._take_empty()
+        except (OSError, ValueError) as error:
+            folder.abandon()
+            raise _bad_out(path, _why(error)) from error
+        return folder
+
+    @classmethod
+    def find(cls, path):
+        """The folder of an earlier run, to be looked at.
 
         Parameters
         ----------
@@ -176,7 +149,7 @@ class RunFolder:
         Raises
         ------
         ValueError
-            If one of the two is missing, or nothing can be written there.
+            If one of the two is missing.
         """
         folder = cls(path)
         for file in (folder.case, folder.checkpoint):
@@ -185,10 +158,68 @@ class RunFolder:
                     f"--resume: '{path}' holds no {file.name}; allowed: the folder of a run that "
                     "has written a checkpoint"
                 )
-        if not os.access(path, os.W_OK):
-            raise ValueError(f"--resume: '{path}' cannot be written; allowed: a writable folder")
+        return folder
+
+    @classmethod
+    def reopen(cls, path):
+        """The folder of an earlier run, held, to go on with it.
+
+        Raises
+        ------
+        ValueError
+            If `find` raises it, another run has the folder, or nothing can be written there.
+        """
+        folder = cls.find(path)
+        try:
+            folder.hold()
+        except (OSError, lock.InUse) as error:
+            raise ValueError(
+                f"--resume: '{path}' {_why(error)}; allowed: a folder that can be written and that "
+                "no other run writes to"
+            ) from error
         folder._read_earlier_run()
         return folder
+
+    def _take_empty(self):
+        """Hold the folder; ValueError if anything is in it, and nothing is put there then."""
+        names = set(os.listdir(self.path))
+        if not names or lock.NAME in names:
+            self.hold()
+            names = set(os.listdir(self.path))
+        if names - {lock.NAME}:
+            raise ValueError("is not empty")
+
+    def hold(self):
+        """Hold the folder, if it is not held yet.
+
+        Raises
+        ------
+        ValueError
+            If another run has it (`lock.InUse`), or has gone on with it since it was let go of.
+        """
+        if self._lock:
+            return
+        self._lock = lock.FolderLock(self.path)
+        if not all(table.in_place() for table in self._tables.values()):
+            self.let_go()
+            raise ValueError(
+                f"'{self.path}': another run has gone on with it meanwhile; go on from there with "
+                "Simulation.resume"
+            )
+        remove_drafts(self.path)
+
+    def let_go(self):
+        """Let other runs have the folder, until the next `hold`."""
+        if self._lock:
+            self._lock.release()
+            self._lock = None
+
+    def abandon(self):
+        """Let go of the folder, and remove it if it was made here and nothing is in it."""
+        self.let_go()
+        with suppress(OSError):
+            for path in self._made:
+                path.rmdir()
 
     def _read_earlier_run(self):
         """Take over the start and the wall time; a damaged record is no reason not to go on."""
@@ -341,9 +372,21 @@ class RunFolder:
             table.flush()
 
     def close(self):
-        """Close the tables."""
+        """Close the tables, and let go of the folder."""
         for table in self._tables.values():
             table.close()
+        self.let_go()
+
+
+def _missing(path):
+    """The folders of a path that are not there yet, the innermost first."""
+    return [folder for folder in (path, *path.parents) if not folder.exists()]
+
+
+def _why(error):
+    if isinstance(error, lock.InUse):
+        return f"is {error}: wait for that run, or stop it"
+    return f"cannot be written ({error.strerror})" if isinstance(error, OSError) else str(error)
 
 
 def _bad_out(path, what):

@@ -1,6 +1,5 @@
 """Pictures of a run, drawn from the files of its folder alone."""
 
-import csv
 import tomllib
 from pathlib import Path
 
@@ -10,6 +9,7 @@ from matplotlib.figure import Figure
 
 from mpslab.headings import heading
 from mpslab.snapshots import draw_breaker, draw_tank
+from mpslab.tables import read_rows
 
 # Okabe and Ito's colours, which stay apart for the colour-blind.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
@@ -122,10 +122,7 @@ def read_table(path):
         Header to column, of numbers where all entries are numbers; empty if there is no file, or
         no row in it.
     """
-    if not path.exists():
-        return {}
-    with path.open(newline="", encoding="utf-8") as file:
-        header, *rows = csv.reader(file)
+    header, *rows = read_rows(path) or [[]]
     if not rows:
         return {}
     return {name: _column(entries) for name, *entries in zip(header, *rows, strict=True)}

@@ -1,12 +1,15 @@
 """What a run leaves: series in memory and, with a folder, files."""
 
 import warnings
+from contextlib import suppress
 
 import numpy as np
 
 from mpslab import checkpoint, diagnostics, gauges
+from mpslab.journal import journal_of
 from mpslab.output import PROBE_QUANTITIES, STEP_COLUMNS
 from mpslab.particles import KIND_NAMES
+from mpslab.series import Series
 
 REACH = 3.0  # spacings: no instrument sees further along the tank
 
@@ -26,14 +29,22 @@ class Record:
 
     def __init__(self, case, flow, folder):
         self.case, self.flow, self.folder = case, flow, folder
-        self.steps, self.gauges, self.probes = [], [], []
-        self.last_row = {}
+        quantities = [quantity.split(" ")[0] for quantity in PROBE_QUANTITIES]
+        self.steps = Series(STEP_COLUMNS, words=["dt_limit"])
+        self.gauges = Series(["time", *(g.name for g in case.gauge)])
+        self.probes = Series(["time", *(f"{p.name} {q}" for p in case.probe for q in quantities)])
+        self.last_row, self.counts = {}, {}
         self.frames = None
 
     def _write(self, act):
-        """Call `act` on rank 0, if the run has a folder."""
+        """Call `act` on rank 0, if the run has a folder, which is held from then on."""
         if self.folder:
-            self.flow.domain.on_root(act)
+            self.flow.domain.on_root(lambda: (self.folder.hold(), act()))
+
+    def let_go(self):
+        """Let other runs have the folder, until something is written again."""
+        if self.folder:
+            self.folder.let_go()
 
     def begin(self, step=None):
         """Open the tables; after a restart, drop what is later than its step and time."""
@@ -51,14 +62,17 @@ class Record:
         self.frames = vtkhdf.ParticleSeries(self.folder.particles, self.case.output.fields)
 
     def _cut_frames(self, time):
-        """Drop the frames after a time; a file that is damaged is set aside."""
+        """Drop the frames after a time; a file, or a journal, that is damaged is set aside."""
         from mpslab import vtkhdf
 
         path = self.folder.particles
         try:
             vtkhdf.truncate(path, time)
         except (ValueError, KeyError, RuntimeError) as error:
-            path.rename(path.with_suffix(".damaged.vtkhdf"))
+            aside = path.with_suffix(".damaged.vtkhdf")
+            for old, new in ((path, aside), (journal_of(path), journal_of(aside))):
+                if old.exists():
+                    old.rename(new)
             warnings.warn(f"{error}; set aside, the frames begin anew", stacklevel=2)
 
     def write_case(self, text, files):
@@ -76,7 +90,7 @@ class Record:
     def add_step(self, **entries):
         """Add a row; the keywords are the keys of `mpslab.output.STEP_COLUMNS`."""
         self.last_row = entries
-        self.steps.append(tuple(entries[key] for key in STEP_COLUMNS))
+        self.steps.add(tuple(entries[key] for key in STEP_COLUMNS))
         self._write(lambda: self.folder.add_step(**entries))
 
     def add_phases(self, step, time, laps):
@@ -100,11 +114,14 @@ class Record:
         self._write(lambda: self.folder.add_decomposition(**entries))
 
     def read_instruments(self):
-        """Read all gauges and probes at the present time, on rank 0."""
+        """Read all gauges and probes at the present time; rank 0 tells the others."""
         particles = self.flow.domain.gather(self._near_instruments())
-        if particles is not None:
-            self._read(particles)
-        self._write(lambda: self._write_instruments())
+        read = None if particles is None else self._read(particles)
+        levels, values = self.flow.domain.from_all(read)[0]
+        time = self.flow.time
+        self.gauges.add((time, *levels))
+        self.probes.add((time, *(v for probe in values for v in probe)))
+        self._write(lambda: self._write_instruments(time, levels, values))
 
     def _near_instruments(self):
         """This rank's particles within the reach of an instrument."""
@@ -118,6 +135,7 @@ class Record:
         return particles.take(near)
 
     def _read(self, p):
+        """Water level of each gauge, and pressure and velocity of each probe."""
         spacing, width = self.flow.stencil.spacing, self.flow.stencil.width
         levels = [
             gauges.surface_elevation(p.position, p.kind, spacing, g.x, g.y, width)
@@ -125,17 +143,14 @@ class Record:
         ]
         values = [
             gauges.probe(p.position, p.velocity, p.pressure, p.kind, spacing,
-                         (q.x, q.y, q.z), width)
+                         (q.x, q.y, q.z), width).tolist()
             for q in self.case.probe
         ]  # fmt: skip
-        self.gauges.append((self.flow.time, *levels))
-        self.probes.append((self.flow.time, *(v for probe in values for v in probe)))
+        return levels, values
 
-    def _write_instruments(self):
-        time, *levels = self.gauges[-1]
-        values = np.reshape(self.probes[-1][1:], (-1, len(PROBE_QUANTITIES)))
+    def _write_instruments(self, time, levels, values):
         self.folder.add_gauges(time, levels)
-        self.folder.add_probes(time, values.tolist())
+        self.folder.add_probes(time, values)
 
     def add_frame(self):
         """Write the particles for ParaView."""
@@ -164,7 +179,6 @@ class Record:
         if self.folder:
             particles = self.flow.domain.gather(self.flow.particles)
             self._write(lambda: self._write_state(particles, state, name))
-            self.write_run("running")
 
     def _write_state(self, particles, state, name):
         self.folder.flush()
@@ -176,26 +190,26 @@ class Record:
         if self.folder:
             kinds = np.bincount(self.flow.particles.kind, minlength=len(KIND_NAMES))
             kinds = np.sum(self.flow.domain.from_all(kinds), axis=0)
-            counts = dict(zip(KIND_NAMES, kinds, strict=True))
-            seconds = self.flow.stopwatch.seconds
-            self._write(lambda: self.folder.write_run(outcome, counts, seconds, reason))
+            self.counts = dict(zip(KIND_NAMES, kinds, strict=True))
+            self._write(lambda: self._write_run(outcome, reason))
+
+    def _write_run(self, outcome, reason):
+        self.folder.write_run(outcome, self.counts, self.flow.stopwatch.seconds, reason)
+
+    def leave(self, outcome, reason):
+        """Write down the rows and how the run ended, as far as one can, when other ranks may not.
+
+        The particles are counted as they were the last time.
+        """
+        if self.folder and self.flow.domain.rank == 0:
+            with suppress(OSError):
+                self._write_run(outcome, reason)
+            with suppress(OSError):
+                self.folder.flush()
 
     def flush(self):
         """Bring the tables up to date on the disk."""
         self._write(lambda: self.folder.flush())
-
-    def series(self, which):
-        """A table as a structured array: "steps", "gauges" or "probes"."""
-        if which == "steps":
-            rows, names = self.steps, list(STEP_COLUMNS)
-        elif which == "gauges":
-            rows, names = self.gauges, ["time", *(g.name for g in self.case.gauge)]
-        else:
-            quantities = [q.split(" ")[0] for q in PROBE_QUANTITIES]
-            names = ["time", *(f"{p.name} {q}" for p in self.case.probe for q in quantities)]
-            rows = self.probes
-        kinds = ["U16" if name == "dt_limit" else float for name in names]
-        return np.array(rows, dtype=list(zip(names, kinds, strict=True)))
 
     def measures(self, before):
         """What the water holds now and what the piston did since `before` [s], for a row."""

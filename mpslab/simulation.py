@@ -2,6 +2,8 @@
 
 import time as clock
 from collections import Counter
+from contextlib import suppress
+from numbers import Real
 
 import numpy as np
 
@@ -18,6 +20,8 @@ from mpslab.record import Record
 from mpslab.step import advance, make_flow
 from mpslab.watch import RunFailed, check_finite, check_lost, check_step, find_lost
 
+STOPPED = ("interrupted", "stopped")
+
 
 class Simulation:
     """A run of a case, from Python; under mpiexec, this rank's part of it.
@@ -26,8 +30,10 @@ class Simulation:
     ----------
     case : mpslab.parameters.Case
         From `mpslab.load_case`.
-    out : str or Path, optional
-        New or empty folder for the files of the run; without it everything stays in memory.
+    out : str, Path or RunFolder, optional
+        New or empty folder for the files of the run, or one that `take` gave; without it
+        everything stays in memory. No other run can have the folder until this one has ended, or
+        is forgotten.
 
     Attributes
     ----------
@@ -47,20 +53,31 @@ class Simulation:
     """
 
     def __init__(self, case, out=None):
+        if not (out is None or isinstance(out, RunFolder)):
+            out = take(RunFolder.create, out)
+        try:
+            files = inputs.of(case)
+            flow = self._lay_out(case)
+        except BaseException:
+            if out is not None:
+                out.abandon()
+            raise
+        self._set_up(flow, out, files)
+        self._record.write_case(self._text, files)
+        self._record.begin()
+        self._record.read_instruments()
+        self._record.add_frame()
+        self._write_checkpoint()
+
+    def _lay_out(self, case):
+        """The water of a case, settled."""
         paddle = make_paddle(case)
-        files = inputs.of(case)
         backmost = paddle.backmost if paddle else 0.0
         flow = _flow(case, paddle, lambda: geometry.build_particles(case, backmost))
         self.at_start = sum(flow.domain.from_all(int(np.count_nonzero(flow.particles.fluid))))
         settling.settle(flow)
         initial.set_velocity(case, flow.particles, flow.domain.total)
-        folder = None if out is None else _on_root(RunFolder.create, out)
-        self._set_up(flow, folder, files)
-        self._record.write_case(self._text, files)
-        self._record.begin()
-        self._record.read_instruments()
-        self._record.add_frame()
-        self._record.write_checkpoint(self._state())
+        return flow
 
     @classmethod
     def resume(cls, folder, changes=None):
@@ -76,10 +93,19 @@ class Simulation:
         Raises
         ------
         ValueError
-            If the folder holds no run, its checkpoint is damaged, an input file is not what it was,
-            or the case differs from that of the checkpoint in what cannot change.
+            If the folder holds no run, or another run has it, its checkpoint is damaged, an input
+            file is not what it was, or the case differs from that of the checkpoint in what cannot
+            change.
         """
-        folder = _on_root(RunFolder.reopen, folder)
+        folder = take(RunFolder.reopen, folder)
+        try:
+            return cls._resumed(folder, changes)
+        except BaseException:
+            folder.let_go()
+            raise
+
+    @classmethod
+    def _resumed(cls, folder, changes):
         found = restart.look(folder, changes)
         case, state = found.case, found.state
         flow = _flow(
@@ -130,8 +156,11 @@ class Simulation:
 
     @property
     def steps(self):
-        """Rows of steps.csv since the start or the restart, a structured array (steps,)."""
-        return self._record.series("steps")
+        """Rows of steps.csv since the start or the restart, a structured array (steps,).
+
+        As gauges and probes, the same on all ranks, and not to be written to.
+        """
+        return self._record.steps.rows
 
     @property
     def last_row(self):
@@ -141,12 +170,12 @@ class Simulation:
     @property
     def gauges(self):
         """Water levels: field "time" [s] and one field [m] for each gauge."""
-        return self._record.series("gauges")
+        return self._record.gauges.rows
 
     @property
     def probes(self):
         """Readings of the probes: "time" [s], then "NAME pressure" [Pa] and "NAME u" [m/s]."""
-        return self._record.series("probes")
+        return self._record.probes.rows
 
     @property
     def stopwatch(self):
@@ -159,7 +188,7 @@ class Simulation:
         Parameters
         ----------
         until : float, optional
-            Time to stop at [s]; ``case.time.end`` when left out.
+            Time to stop at [s], the present time or later; ``case.time.end`` when left out.
         progress : callable, optional
             Called after every step with the simulation.
 
@@ -172,20 +201,62 @@ class Simulation:
         ------
         RunFailed
             With the reason, step, time and place; the failed state is left in ``failed.h5``.
+        ValueError
+            If ``until`` is no such time, or another run has the folder.
+
+        Whatever else is raised, by ``progress`` or by Ctrl-C, ends the run: ``run.json`` says how,
+        and the checkpoint is that of the present state, or of the last one if a step was in hand.
         """
-        until = self.case.time.end if until is None else until
+        until = self.case.time.end if until is None else self._checked(until)
         self._record.write_run("running")
         try:
-            while self.time < until and not any(self.domain.from_all(self.stop_requested)):
-                self.advance()
+            raised = self._run(until, progress)
+        except RunFailed as failure:
+            self._fail(failure)
+            raise
+        except BaseException as error:
+            self.outcome, self.reason = _ending(error)
+            self._record.leave(self.outcome, self.reason)
+            raise
+        finally:
+            self._record.let_go()
+        if raised is not None:
+            raise raised
+        return self
+
+    def _checked(self, until):
+        """A time to stop at; ValueError if it is none."""
+        number = isinstance(until, Real) and not isinstance(until, bool)
+        if not (number and self.time <= until < np.inf):
+            raise ValueError(
+                f"until = {until!r}: must be a number of seconds >= {float(self.time)}, the "
+                "present time"
+            )
+        return until
+
+    def _run(self, until, progress):
+        """Run, and write down the end; returns what `progress` raised on this rank, if anything."""
+        raised, stop = None, self._stop()
+        while self.time < until and not stop:
+            self.advance()
+            try:
                 if progress:
                     progress(self)
-        except RunFailed as failure:
-            self._end("failed", str(failure))
-            raise
-        finished = self.time >= until
-        self._end("finished" if finished else "interrupted", None if finished else "stopped")
-        return self
+            except BaseException as error:
+                raised = error
+            stop = self._stop(raised)
+        if stop == STOPPED and self.time >= until:
+            stop = None
+        self.outcome, self.reason = stop or ("finished", None)
+        self._record.write_checkpoint(self._state())
+        self._record.write_run(self.outcome, self.reason)
+        return raised
+
+    def _stop(self, raised=None):
+        """Outcome and reason, the same on all ranks, if the run is to stop here; else None."""
+        mine = STOPPED if self.stop_requested else None
+        found = self.domain.from_all(mine if raised is None else _ending(raised))
+        return next(filter(None, found), None)
 
     def advance(self):
         """One time step, written down; raises RunFailed when no other may follow."""
@@ -202,11 +273,12 @@ class Simulation:
         self._take_out_lost()
         check_step(self._flow, report, self.dt, self.step)
         check_lost(self._flow, self.lost, self._sides, self.at_start, self.step)
+        seconds = self.domain.from_all(clock.perf_counter() - began)[0]
         with self.stopwatch.phase("record"):
             self._record.add_step(
                 step=self.step, time=self.time, dt=self.dt, dt_limit=limit,
                 iterations=report.iterations, residual=report.residual, lost=self.lost,
-                seconds=clock.perf_counter() - began, **self._record.measures(before),
+                seconds=seconds, **self._record.measures(before),
             )  # fmt: skip
         # Before the checkpoint, for the rows up to its step have to be there after a kill.
         if self.step % self.case.parallel.rebalance_every == 0:
@@ -245,7 +317,7 @@ class Simulation:
         if due(output.interval):
             self._record.add_frame()
         if due(output.checkpoint):
-            self._record.write_checkpoint(self._state())
+            self._write_checkpoint()
 
     def _state(self):
         return {
@@ -260,13 +332,19 @@ class Simulation:
             "inputs": self._files,
         }
 
-    def _end(self, outcome, reason):
-        """Leave a checkpoint and the record; a failed state does not replace a good one."""
-        self.outcome, self.reason = outcome, reason
-        name = "failed.h5" if outcome == "failed" else None
-        self._record.write_checkpoint(self._state(), name)
-        self._record.write_run(outcome, reason)
-        self._record.flush()
+    def _write_checkpoint(self):
+        self._record.write_checkpoint(self._state())
+        self._record.write_run("running")
+
+    def _fail(self, failure):
+        """Leave the failed state, which does not replace a good one, and the record."""
+        self.outcome, self.reason = "failed", str(failure)
+        try:
+            self._record.write_checkpoint(self._state(), "failed.h5")
+        except OSError as error:
+            failure.add_note(f"The state could not be written to failed.h5 ({error.strerror})")
+        with suppress(OSError):
+            self._record.write_run(self.outcome, self.reason)
 
 
 def _flow(case, paddle, make):
@@ -276,6 +354,15 @@ def _flow(case, paddle, make):
     return make_flow(case, particles, piston, geometry.period(case))
 
 
-def _on_root(make, path):
-    """The `RunFolder` that rank 0 makes; the other ranks know where it is."""
-    return on_root(world(), lambda: make(path)) or RunFolder(path)
+def _ending(error):
+    """Outcome and reason of a run that an exception ends."""
+    outcome = "failed" if isinstance(error, Exception) else "interrupted"
+    return outcome, " ".join(f"{type(error).__name__} {error}".split())
+
+
+def take(make, path):
+    """The `RunFolder` that rank 0 makes, and holds; the other ranks know where it is."""
+    comm = world()
+    folder = on_root(comm, lambda: make(path))
+    path = comm.bcast(folder and folder.path)
+    return folder or RunFolder(path)

@@ -11,9 +11,11 @@ from pathlib import Path
 from mpslab import cases, catalogue, launch, restart
 from mpslab.communicator import all_here
 from mpslab.domain import launched, world
+from mpslab.files import FULL, DiskFull
 from mpslab.output import RunFolder
 from mpslab.preflight import check_ranks, preflight
-from mpslab.simulation import Simulation
+from mpslab.simulation import Simulation, take
+from mpslab.terminal import unbroken
 from mpslab.watch import RunFailed
 
 DEFAULT_CASE = "plunging_breaker"
@@ -57,6 +59,11 @@ def main(arguments=None):
 
     0: done; 2: bad input, nothing done; 3: the run went wrong; 130: stopped by Ctrl-C.
     """
+    with unbroken():
+        return _main(arguments)
+
+
+def _main(arguments):
     try:
         comm = world()
     except ValueError as error:  # no ranks that could agree on who says it
@@ -122,7 +129,12 @@ def _prepared(options, arguments, comm, tell):
         return None
     for warning in report.warnings:
         tell(f"Warning: {warning}", file=sys.stderr)
-    return Simulation(case, options.out or comm.bcast(_free_folder(case.name)))
+    # Before the water is settled, which takes its time: nobody else is to have the folder.
+    if options.out:
+        folder = take(RunFolder.create, options.out)
+    else:
+        folder = take(RunFolder.create_next, Path("runs") / case.name)
+    return Simulation(case, folder)
 
 
 def _silent(*words, **options):
@@ -139,7 +151,7 @@ def _case(options, changes):
                 f"--resume {options.resume}: goes on with the case and in the folder of that "
                 f"run; not allowed together with {'CASE' if name == 'case' else '--' + name}"
             )
-    found = restart.look(RunFolder.reopen(options.resume), changes)
+    found = restart.look(RunFolder.find(options.resume), changes)
     return found.case, found.state["time"]
 
 
@@ -170,15 +182,6 @@ def _further(end):
     return f"its end, time.end = {end:g} s; --set time.end=SECONDS takes it further"
 
 
-def _free_folder(name):
-    """runs/NAME, or runs/NAME-2 and so on where there is one already."""
-    folder, number = Path("runs") / name, 1
-    while folder.exists():
-        number += 1
-        folder = Path("runs") / f"{name}-{number}"
-    return folder
-
-
 def _run(simulation, options, tell):
     from mpslab.progress import make_progress
 
@@ -198,17 +201,21 @@ def _run(simulation, options, tell):
     try:
         if tell is print:
             with make_progress(until, simulation.time) as progress:
-                simulation.run(until, progress)
+                simulation.run(options.until, progress)
         else:
-            simulation.run(until)
+            simulation.run(options.until)
     except RunFailed as failure:
-        tell(f"mpslab: run stopped: {failure}\nThe state to look at is in {folder / 'failed.h5'}; "
-             f"the last good one in {folder / 'checkpoint.h5'}", file=sys.stderr)  # fmt: skip
+        notes = getattr(failure, "__notes__", None)
+        state = notes[0] if notes else f"The state to look at is in {folder / 'failed.h5'}"
+        tell(f"mpslab: run stopped: {failure}\n{state}; the last good one is in "
+             f"{folder / 'checkpoint.h5'}", file=sys.stderr)  # fmt: skip
         return FAILED
     except OSError as error:
         tell(f"mpslab: run stopped: {folder} cannot be written ({_reason(error)}) after step "
              f"{simulation.step}, t = {simulation.time:.6g} s; the last checkpoint there is good",
              file=sys.stderr)  # fmt: skip
+        if error.errno in FULL:
+            tell(f"Free space, then go on with\n  {_go_on(folder)}", file=sys.stderr)
         return FAILED
     finally:
         for number, handler in earlier.items():
@@ -223,6 +230,8 @@ def _go_on(folder):
 
 def _reason(error):
     """What the system says about an OSError, in one line."""
+    if isinstance(error, DiskFull):
+        return error.strerror
     return os.strerror(error.errno) if error.errno else " ".join(str(error).split())
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from mpslab.journal import changing, recover
+from mpslab.journal import changing, reading, recover
 
 # The four families of cells of a PolyData, in the order of the columns of Steps/CellOffsets.
 FAMILIES = ("Vertices", "Lines", "Polygons", "Strips")
@@ -20,7 +20,8 @@ class ParticleSeries:
     """A time series of particles in a VTKHDF file, opened and closed at each frame.
 
     Between two calls of `append` the file is whole: it can be looked at while the run goes on. A
-    kill, or a full disk, in the middle of one leaves all frames written so far (`mpslab.journal`).
+    kill, or a full disk, in the middle of one leaves all frames written so far to the readers here,
+    and to the next call (`mpslab.journal`).
 
     Parameters
     ----------
@@ -158,10 +159,8 @@ def truncate(path, time):
         return
     with changing(path) as held, _opened(path, held, "r+") as file:
         root = file["VTKHDF"]
-        steps = root["Steps"]
-        times = steps["Values"][: steps.attrs["NSteps"]]
-        frames = int(np.searchsorted(times, time, side="right"))
-        steps.attrs["NSteps"] = frames
+        frames = int(np.searchsorted(_times(root), time, side="right"))
+        root["Steps"].attrs["NSteps"] = frames
         root.visititems(_cutter(frames, int(root["NumberOfPoints"][:frames].sum())))
 
 
@@ -196,9 +195,11 @@ def read_times(path):
     ValueError
         If the file cannot be read.
     """
-    with _opened(path) as file:
-        steps = file["VTKHDF/Steps"]
-        return steps["Values"][: steps.attrs["NSteps"]]
+    return _read(path, _times)
+
+
+def _times(root):
+    return root["Steps/Values"][: root["Steps"].attrs["NSteps"]]
 
 
 def read_frame(path, index):
@@ -221,12 +222,14 @@ def read_frame(path, index):
     ValueError
         If the file cannot be read.
     """
-    with _opened(path) as file:
-        root = file["VTKHDF"]
+
+    def frame(root):
         begin = int(root["Steps/PointOffsets"][index])
         rows = slice(begin, begin + int(root["NumberOfPoints"][index]))
         fields = {name: dataset[rows] for name, dataset in root["PointData"].items()}
         return {"position": root["Points"][rows], **fields}
+
+    return _read(path, frame)
 
 
 def read_frames(path):
@@ -247,15 +250,31 @@ def read_frames(path):
         yield float(time), read_frame(path, index)
 
 
-def _opened(path, held=None, mode="r"):
-    """The file, or what is held of it, or a ValueError of one line."""
+def _read(path, find):
+    """What a function finds in the group that holds everything, while the run may go on."""
+
+    def read(held):
+        with _opened(path, held, "r") as file:
+            return find(file["VTKHDF"])
+
     try:
-        # Without a lock: a program that reads the frames meanwhile must not stop the run.
-        file = h5py.File(path, mode, locking=False) if held is None else h5py.File(held, mode)
+        return reading(path, read)
     except OSError as error:
-        reason = " ".join(str(error).split())
-        raise ValueError(f"particles '{path}': cannot be read as HDF5 ({reason})") from error
+        raise _unreadable(path, error) from error
+
+
+def _opened(path, held, mode):
+    """What is held of the file, as HDF5, or a ValueError of one line."""
+    try:
+        file = h5py.File(held, mode)
+    except OSError as error:
+        raise _unreadable(path, error) from error
     if "VTKHDF/Steps/Values" not in file:
         file.close()
         raise ValueError(f"particles '{path}': not a VTKHDF time series")
     return file
+
+
+def _unreadable(path, error):
+    reason = " ".join(str(error).split())
+    return ValueError(f"particles '{path}': cannot be read as HDF5 ({reason})")

@@ -120,6 +120,17 @@ def crossing(places):
     return {"ranks": everyone, "total": sum(total)}
 
 
+def series(changes):
+    """What each rank has of the series of a run."""
+    from tanks import make_case
+
+    from mpslab.simulation import Simulation
+
+    run = Simulation(make_case(changes)).run()
+    mine = {name: getattr(run, name).tolist() for name in ("steps", "gauges", "probes")}
+    return run.domain.from_all(mine)
+
+
 def spoiled(how, folder):
     """A run that goes wrong after its checkpoint of 9 ms: a rank raises, or its water is lost."""
     import numpy as np

@@ -7,7 +7,7 @@ import mpslab
 
 ROOT = Path(mpslab.__file__).parent
 FLOORS = {
-    6: "tank progress measures launch",
+    6: "tank progress measures launch terminal",
     5: "simulation record watch output checkpoint vtkhdf snapshots overturning gauges pictures "
     "preflight cases initial inputs restart provenance diagnostics scatter headings panels "
     "catalogue",
@@ -17,7 +17,7 @@ FLOORS = {
     "gates friction",
     2: "balance communicator headcount domain rebalance",
     1: "particles neighbors stencil sparse slabs parameters keys plugins bed paddle waves breaking "
-    "stopwatch files journal memory",
+    "stopwatch files journal lock tables series memory",
     0: "kernels",
 }
 FLOOR_OF = {name: floor for floor, names in FLOORS.items() for name in names.split()}

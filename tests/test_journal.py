@@ -1,12 +1,14 @@
 """A file that is changed all at once or not at all."""
 
 import io
+import os
 
 import h5py
 import numpy as np
 import pytest
 
 from mpslab import journal, vtkhdf
+from mpslab.files import remove_drafts, replacing
 from mpslab.particles import make_particles
 
 
@@ -73,8 +75,8 @@ def test_a_kill_at_any_write_loses_at_most_the_frame_in_hand(tmp_path, monkeypat
     monkeypatch.setattr(journal, "recover", lambda path: None)
     particles.position[:] += 1.0
     series.append(0.2, particles)
-    held = journal._journal(path).read_bytes()
-    size, pieces = journal._read_journal(journal._journal(path))
+    held = journal.journal_of(path).read_bytes()
+    size, pieces = journal._read_journal(journal.journal_of(path))
     assert path.read_bytes() == before
     assert len(pieces) > 10
     monkeypatch.setattr(journal, "recover", recover)
@@ -83,13 +85,13 @@ def test_a_kill_at_any_write_loses_at_most_the_frame_in_hand(tmp_path, monkeypat
         for offset, piece in pieces[:done]:
             half[offset : offset + len(piece)] = piece
         path.write_bytes(half)
-        journal._journal(path).write_bytes(held)
+        journal.journal_of(path).write_bytes(held)
         vtkhdf.truncate(path, 0.15)
         assert vtkhdf.read_times(path).tolist() == [0.0, 0.1]
         for index in (0, 1):
             frame = vtkhdf.read_frame(path, index)
             assert np.array_equal(frame["position"], (particles.position - 1.0).astype("f4"))
-    journal._journal(path).write_bytes(held)
+    journal.journal_of(path).write_bytes(held)
     journal.recover(path)
     assert len(vtkhdf.read_times(path)) == 3
     assert path.stat().st_size == size
@@ -100,3 +102,67 @@ def test_a_whole_file_is_left_to_other_programs(tmp_path):
     vtkhdf.ParticleSeries(tmp_path / "p.vtkhdf", []).append(0.0, particles)
     with h5py.File(tmp_path / "p.vtkhdf") as file:
         assert len(file["VTKHDF/Points"]) == 3
+
+
+def test_readers_beside_a_writer_see_whole_frames(tmp_path):
+    """A process adds frames without a pause; each look finds all frames of an instant, whole."""
+    path = tmp_path / "p.vtkhdf"
+    vtkhdf.ParticleSeries(path, []).append(0.0, make_particles(np.zeros((200, 3)), np.zeros(200)))
+    child = os.fork()
+    if child == 0:
+        try:
+            series = vtkhdf.ParticleSeries(path, [])
+            for k in range(1, 60):
+                series.append(float(k), make_particles(np.full((200, 3), k), np.zeros(200)))
+        finally:
+            os._exit(0)
+    looks, count = 0, 1
+    while os.waitpid(child, os.WNOHANG) == (0, 0):
+        times = vtkhdf.read_times(path)
+        assert times.tolist() == [float(k) for k in range(len(times))]
+        assert len(times) >= count
+        count = len(times)
+        assert np.all(vtkhdf.read_frame(path, count - 1)["position"] == count - 1)
+        looks += 1
+    assert len(vtkhdf.read_times(path)) == 60
+    assert looks > 20
+
+
+def test_what_is_read_while_the_file_changes_is_read_again(path):
+    contents = []
+
+    def look(file):
+        contents.append(file.read())
+        if len(contents) == 1:
+            with journal.changing(path) as held:
+                held.write(b"abcd")
+            raise KeyError("half of it")
+        return contents[-1]
+
+    assert journal.reading(path, look) == b"abcd456789"
+    assert len(contents) == 2
+
+
+def test_what_goes_wrong_in_a_file_that_does_not_change_is_raised(path):
+    with pytest.raises(KeyError):
+        journal.reading(path, lambda file: {}["nothing"])
+
+
+def test_a_file_that_is_written_all_the_time_is_given_up(path, monkeypatch):
+    monkeypatch.setattr(journal, "PATIENCE", 0.05)
+    with pytest.raises(OSError, match="written to all the time"):
+        journal.reading(path, lambda file: path.write_bytes(path.read_bytes() + b"x"))
+
+
+def test_drafts_of_two_writers_are_two_files(tmp_path):
+    with replacing(tmp_path / "a") as one, replacing(tmp_path / "a") as other:
+        one.write_text("one")
+        other.write_text("other")
+        assert one != other
+        (tmp_path / "notes.tmp").write_text("mine")
+        remove_drafts(tmp_path)
+        assert files(tmp_path / "a") == ["notes.tmp"]
+        one.write_text("one")
+        other.write_text("other")
+    assert (tmp_path / "a").read_text() == "one"
+    assert files(tmp_path / "a") == ["a", "notes.tmp"]

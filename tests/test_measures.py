@@ -1,6 +1,7 @@
 """Measures of a finished run, from the command line and from its folder."""
 
 import csv
+import shutil
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from tanks import make_case
 from mpslab import measures
 from mpslab.diagnostics import piston_force
 from mpslab.particles import DUMMY, FLUID, PISTON
-from mpslab.pictures import read_table
+from mpslab.pictures import draw_run, read_table
 from mpslab.simulation import Simulation
 from mpslab.stencil import make_stencil
 
@@ -46,6 +47,17 @@ def test_command_writes_a_row_for_each_frame_and_prints_the_ledger(standing, cap
         rows = list(csv.DictReader(file))
     assert len(rows) == 11
     assert all(float(row["isolated_share"]) == 0.0 for row in rows)
+
+
+def test_tables_that_a_kill_cut_amid_a_row_are_measured_and_drawn(driven, tmp_path, capsys):
+    folder = tmp_path / "cut"
+    shutil.copytree(driven, folder)
+    for name in ("steps", "gauges", "probes"):
+        path = folder / f"{name}.csv"
+        path.write_text(path.read_text()[:-4])
+    assert measures.main([str(folder)]) == 0
+    assert "dissipated" in capsys.readouterr().out
+    assert "energy.png" in [path.name for path in draw_run(folder)]
 
 
 def test_first_mode_follows_linear_theory_for_a_quarter_of_a_period(standing):

@@ -8,7 +8,7 @@ import subprocess
 import numpy as np
 import pytest
 
-from mpslab import output, provenance
+from mpslab import output, pictures, provenance, tables
 from mpslab.output import CsvTable, RunFolder
 
 STEPS_HEADER = (
@@ -121,6 +121,22 @@ def test_resumed_tables_are_those_of_an_uninterrupted_run(folder, tmp_path):
         assert pieces == whole
 
 
+def test_a_reader_leaves_out_a_row_that_has_no_end_wherever_it_is_cut(folder):
+    write_steps(folder, range(1, 4))
+    folder.close()
+    for name in ("steps", "gauges", "probes", "lost"):
+        path = folder.path / f"{name}.csv"
+        whole, text = pictures.read_table(path), path.read_text()
+        ends = [k + 1 for k, letter in enumerate(text) if letter == "\n"]
+        for cut in range(len(text)):
+            path.write_text(text[:cut])
+            count = max(sum(end <= cut for end in ends) - 1, 0)
+            found = pictures.read_table(path)
+            assert set(found) == (set(whole) if count else set())
+            for column, entries in found.items():
+                np.testing.assert_array_equal(entries, whole[column][:count])
+
+
 def test_resumed_table_with_other_columns_is_refused(tmp_path):
     CsvTable(tmp_path / "gauges.csv", ["time [s]", "g1 [m]"]).close()
     with pytest.raises(ValueError, match="g2"):
@@ -136,7 +152,7 @@ def test_row_of_wrong_length_is_refused(tmp_path):
 
 def test_rows_are_on_disk_after_a_second_or_a_flush(tmp_path, monkeypatch):
     clock = [0.0]
-    monkeypatch.setattr(output, "monotonic", lambda: clock[0])
+    monkeypatch.setattr(tables, "monotonic", lambda: clock[0])
     table = CsvTable(tmp_path / "t.csv", ["a"])
     table.append([1])
     assert rows(table.path) == [["a"]]
@@ -226,6 +242,7 @@ def test_record_of_a_resumed_run_adds_up(folder):
     folder.write_run("interrupted", {}, {})
     earlier = json.loads(folder.run.read_text()) | {"wall_time [s]": 1000.0}
     folder.run.write_text(json.dumps(earlier | {"started": "2020-01-01T00:00:00+00:00"}))
+    folder.close()
     RunFolder.reopen(folder.path).write_run("finished", {}, {})
     record = json.loads(folder.run.read_text())
     assert record["started"].startswith("2020")
@@ -237,6 +254,7 @@ def test_damaged_record_does_not_hinder_a_resume(folder):
     folder.write_case("")
     folder.checkpoint.touch()
     folder.run.write_text("{")
+    folder.close()
     RunFolder.reopen(folder.path).write_run("finished", {}, {})
     assert json.loads(folder.run.read_text())["resumed"] == 1
 

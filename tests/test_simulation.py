@@ -70,6 +70,7 @@ def test_resume_after_a_kill_drops_the_rows_after_the_checkpoint(tmp_path):
     while killed.time < 0.05:
         killed.advance()
     killed.folder.flush()
+    del killed
     resumed = mpslab.Simulation.resume(tmp_path / "run")
     assert 0.03 < resumed.time < 0.05
     resumed.run(until=0.06)

@@ -1,13 +1,17 @@
 """The particle series: what is written comes back, in h5py and in VTK."""
 
 import fcntl
+import re
+from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
+from tanks import make_case
 
 from mpslab import vtkhdf
 from mpslab.particles import make_particles
+from mpslab.simulation import Simulation
 
 FIELDS = ("velocity", "pressure", "surface")
 
@@ -146,3 +150,39 @@ def test_vtk_reads_the_series(path, frames, cut):
         np.testing.assert_array_equal(mesh.points, particles.position.astype(np.float32))
         np.testing.assert_array_equal(mesh["velocity"], particles.velocity.astype(np.float32))
         np.testing.assert_array_equal(mesh["kind"], particles.kind)
+
+
+def test_pyvista_reads_a_frame_of_a_run_as_the_documentation_says(tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    text = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+    (script,) = re.findall(r"```python\n(import pyvista\n.*?)```", text, re.DOTALL)
+    case = make_case({"time.end": 0.01, "output.interval": 0.002})
+    Simulation(case, tmp_path / "results").run()
+    found = {}
+    exec(script.replace("results/", f"{tmp_path}/results/"), found)
+    path = tmp_path / "results/particles.vtkhdf"
+    times = vtkhdf.read_times(path)
+    assert len(times) == 6
+    assert list(found["times"]) == times.tolist()
+    last = vtkhdf.read_frame(path, 5)
+    assert isinstance(found["mesh"], pyvista.PolyData)
+    np.testing.assert_array_equal(found["mesh"].points, last["position"])
+    np.testing.assert_array_equal(found["mesh"]["velocity"], last["velocity"])
+    np.testing.assert_array_equal(found["frame"]["velocity"], last["velocity"])
+    for step in range(len(times)):
+        found["reader"].reader.SetStep(step)
+        frame = vtkhdf.read_frame(path, step)
+        np.testing.assert_array_equal(found["reader"].read().points, frame["position"])
+
+
+def test_the_file_tells_vtk_all_of_its_times(path, frames):
+    """Where VTK's pipeline, and with it ParaView, looks for them."""
+    pyvista = pytest.importorskip("pyvista")
+    model = pytest.importorskip("vtkmodules.vtkCommonExecutionModel")
+    reader = pyvista.get_reader(path).reader
+    reader.UpdateInformation()
+    information = reader.GetOutputInformation(0)
+    key = model.vtkStreamingDemandDrivenPipeline.TIME_STEPS()
+    assert [information.Get(key, k) for k in range(information.Length(key))] == [
+        time for time, _ in frames
+    ]
