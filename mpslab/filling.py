@@ -14,6 +14,7 @@ from mpslab import gates, obstacles
 # them together hold the volume.
 PHASES = (0.125, 0.625, 0.375, 0.875)
 ROUND_OFF = 1e-6  # spacings
+TIGHTEST = 0.75  # spacings from particle to particle in a column
 CLEAR = 0.5 - ROUND_OFF  # spacings from the water to a particle of the lid
 
 
@@ -87,20 +88,36 @@ def _box(case, start, end, phase):
 
 def _fill(x, low, first, top, spacing, phase):
     """Particles of columns at x from `low` to `top`, the lowest `first` above low: (n, 2) [m]."""
-    height = np.maximum(top - low, 0.0)
-    count = _share(height / spacing, phase)
     # On a slope the lowest particle is farther up, for its distance counts along the normal.
     base = low + first - 0.5 * spacing
+    count = _share((top - low) / spacing, (top - base) / spacing, phase)
     pitch = (top - base) / np.maximum(count, 1)
     number = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
     z = np.repeat(base, count) + (number + 0.5) * np.repeat(pitch, count)
-    return np.column_stack([np.repeat(x, count), np.maximum(z, np.repeat(low + first, count))])
+    alone = np.repeat(count == 1, count)
+    z[alone] = np.maximum(z[alone], (low + first)[count == 1])
+    return np.column_stack([np.repeat(x, count), z])
 
 
-def _share(heights, phase):
-    """Whole numbers near heights (n,) [spacings], whose sums never differ by one or more."""
-    total = np.floor(np.concatenate([[0.0], np.cumsum(heights)]) + phase + ROUND_OFF)
-    return np.diff(total).astype(int)
+def _share(height, room, phase):
+    """Particles of columns, in their order, (n,) int: what one cannot hold goes to the next.
+
+    Parameters
+    ----------
+    height, room : (n,) float64 [spacings]
+        Of the water that is to be in a column, and of what there is for particles; below 0 where
+        a column is dry.
+    phase : float
+        Share of a particle with which the first column begins.
+    """
+    most = np.minimum(np.floor(room / TIGHTEST), np.ceil(room))
+    most = np.maximum(most, room >= 0.5).astype(int)
+    count, left = np.zeros(len(height), int), phase + ROUND_OFF
+    for i in range(len(height)):
+        left += max(height[i], 0.0)
+        count[i] = max(min(int(left), most[i]), 0)
+        left -= count[i]
+    return count
 
 
 def _disc(case, water):
