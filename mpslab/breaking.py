@@ -7,7 +7,7 @@ crest to trough; deep-water height means the unrefracted height that linear shoa
 import math
 from collections.abc import Callable
 
-from scipy.optimize import brentq
+import scipy
 
 from mpslab import waves
 
@@ -129,7 +129,7 @@ def breaking_point(
             f"deep-water height = {deep_height:.4g} m: must be below {limit:.4g} m for a period of"
             f" {period:.4g} s, or the wave breaks in deep water"
         )
-    depth = brentq(excess, shallow, deep, xtol=1e-12)
+    depth = scipy.optimize.brentq(excess, shallow, deep, xtol=1e-12)
     return depth, index(depth, slope, period, gravity)
 
 

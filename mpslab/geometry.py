@@ -5,7 +5,7 @@ stand half a spacing off every boundary, wall particles half a spacing behind it
 """
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from mpslab import bed as beds
 from mpslab import gates, obstacles
@@ -235,7 +235,7 @@ def _gates(case, floor):
 
 def _clear(case, section, floor):
     """Which places of a section do not come too close to the bed's particles, (n,) bool."""
-    return cKDTree(floor).query(section)[0] > beds.CLOSEST * case.particles.spacing
+    return scipy.spatial.cKDTree(floor).query(section)[0] > beds.CLOSEST * case.particles.spacing
 
 
 def _repeat_across(case, water, solid, kind, backmost):
@@ -295,5 +295,5 @@ def _set_hydrostatic(case, particles):
     weight = case.fluid.density * case.fluid.gravity
     particles.pressure[:] = np.where(particles.carries_pressure, weight * depth, 0.0)
     if case.water:  # which may float above the bed
-        off = cKDTree(particles.position[fluid]).query(particles.position)[0]
+        off = scipy.spatial.cKDTree(particles.position[fluid]).query(particles.position)[0]
         particles.pressure[off > obstacles.NEAR * spacing] = 0.0

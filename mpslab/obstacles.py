@@ -8,7 +8,7 @@ from itertools import product
 from math import ceil
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from mpslab import bed as beds
 from mpslab.particles import DUMMY, GATE, WALL
@@ -58,7 +58,7 @@ def fill(case, solid):
         place[:, 1] = 0.0
     position = place * spacing
     free = position[:, 2] > beds.elevation(case.tank.bed, position[:, 0])
-    free &= cKDTree(solid).query(position)[0] > beds.CLOSEST * spacing
+    free &= scipy.spatial.cKDTree(solid).query(position)[0] > beds.CLOSEST * spacing
     return position[free], np.where(_meets_water(case, place[free]), WALL, DUMMY).astype(np.int8)
 
 
@@ -74,7 +74,7 @@ def press(case, particles):
     spacing, fluid = case.particles.spacing, np.flatnonzero(particles.fluid)
     wall = (particles.kind == WALL) & _inside(case, particles.position / spacing)
     rows, position = np.flatnonzero(wall | (particles.kind == GATE)), particles.position
-    off, near = cKDTree(position[fluid]).query(position[rows])
+    off, near = scipy.spatial.cKDTree(position[fluid]).query(position[rows])
     near = fluid[near]
     rise = position[near, 2] - position[rows, 2]
     weight = case.fluid.density * case.fluid.gravity

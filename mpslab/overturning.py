@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 # Columns of this width hold two particles a layer, so that disorder leaves no gap in the water.
 COLUMN = 2.0  # [spacings]
@@ -92,7 +92,7 @@ def _is_coherent(x, z, spacing):
     """Whether a particle has enough others around it, (n,) bool."""
     if not len(x):
         return np.zeros(0, bool)
-    tree = cKDTree(np.column_stack([x, z]))
+    tree = scipy.spatial.cKDTree(np.column_stack([x, z]))
     around = tree.query_ball_point(tree.data, REACH * spacing, return_length=True)
     return around >= COHERENT
 

@@ -4,7 +4,7 @@ import warnings
 
 import numpy as np
 
-from mpslab import checkpoint, diagnostics, gauges, vtkhdf
+from mpslab import diagnostics, gauges
 from mpslab.output import PROBE_QUANTITIES, STEP_COLUMNS
 from mpslab.particles import KIND_NAMES
 
@@ -40,6 +40,8 @@ class Record:
         self._write(lambda: self._open(step))
 
     def _open(self, step):
+        from mpslab import vtkhdf
+
         time = None if step is None else self.flow.time
         names = [g.name for g in self.case.gauge], [p.name for p in self.case.probe]
         self.folder.open_tables(*names, last_step=step, last_time=time)
@@ -50,6 +52,8 @@ class Record:
 
     def _cut_frames(self, time):
         """Drop the frames after a time; a file that is damaged is set aside."""
+        from mpslab import vtkhdf
+
         path = self.folder.particles
         try:
             vtkhdf.truncate(path, time)
@@ -155,6 +159,8 @@ class Record:
             self.write_run("running")
 
     def _write_state(self, particles, state, name):
+        from mpslab import checkpoint
+
         self.folder.flush()
         path = self.folder.path / name if name else self.folder.checkpoint
         checkpoint.write(path, particles, state)

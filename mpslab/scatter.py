@@ -1,7 +1,7 @@
 """How orderly the water moves: particles on their own, and the roughness of the velocity."""
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 ALONE = 1.5  # [spacings]: a particle with no other within it is on its own
 NEIGHBOURHOOD = 2.1  # [spacings]
@@ -10,12 +10,12 @@ NEIGHBOURHOOD = 2.1  # [spacings]
 def _tree(position, width):
     """Search tree, periodic across the tank where it has a period."""
     if width == 0.0:
-        return cKDTree(position)
+        return scipy.spatial.cKDTree(position)
     folded = position.astype(float)
     folded[:, 1] %= width
     far = 4.0 * (np.ptp(folded, axis=0) + width)
     folded[:, [0, 2]] -= folded[:, [0, 2]].min(axis=0)
-    return cKDTree(folded, boxsize=[far[0], width, far[2]])
+    return scipy.spatial.cKDTree(folded, boxsize=[far[0], width, far[2]])
 
 
 def isolated_share(position, spacing, width=0.0):

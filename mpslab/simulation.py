@@ -4,7 +4,7 @@ import time as clock
 
 import numpy as np
 
-from mpslab import checkpoint, diagnostics, geometry, initial, settling, timestep
+from mpslab import diagnostics, geometry, initial, settling, timestep
 from mpslab.cases import dumps, load_case
 from mpslab.communicator import on_root
 from mpslab.domain import world
@@ -69,6 +69,8 @@ class Simulation:
         ValueError
             If the folder holds no run, or its checkpoint is damaged.
         """
+        from mpslab import checkpoint
+
         folder = _on_root(RunFolder.reopen, folder)
         case = load_case(folder.case)
         arrays, state = checkpoint.read(folder.checkpoint)

@@ -7,12 +7,11 @@ import sys
 import traceback
 from pathlib import Path
 
-from mpslab import cases, launch, pictures
+from mpslab import cases, launch
 from mpslab.communicator import all_here
 from mpslab.domain import launched, world
 from mpslab.output import RunFolder
 from mpslab.preflight import check_ranks, preflight
-from mpslab.progress import make_progress
 from mpslab.simulation import Simulation
 from mpslab.watch import RunFailed
 
@@ -161,6 +160,8 @@ def _free_folder(name):
 
 
 def _run(simulation, options, tell):
+    from mpslab.progress import make_progress
+
     folder = simulation.folder.path
     until = simulation.case.time.end if options.until is None else options.until
     found = simulation.domain.from_all((len(simulation.particles), os.getpid()))
@@ -216,6 +217,8 @@ def _report(simulation, options, tell):
     tell(f"Done: t = {simulation.time:.4f} s after {simulation.step} steps, "
          f"{simulation.lost} particles lost. Results in {folder}")  # fmt: skip
     if tell is print and not options.no_pictures:
+        from mpslab import pictures
+
         tell("Pictures:", *pictures.draw_run(folder), sep="\n  ")
     return 0
 

@@ -8,8 +8,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
-from scipy.special import ellipe, ellipj, ellipk, ellipkinc, ellipkm1
+import scipy
 
 # Formulas in kh have reached their deep-water limit long before, and sinh(600) still fits a float.
 LARGEST_KH = 300.0
@@ -148,15 +147,16 @@ class CnoidalWave:
     def eta(self, phase):
         """Surface elevation [m] at phase = x / L - t / T [-]; the crest is at phase 0."""
         # |phase| <= 1/2 keeps ellipj within the range where it is accurate for m near 1.
-        argument = 2.0 * ellipk(self.m) * (phase - np.round(phase))
-        cn = ellipj(argument, self.m)[1]
+        argument = 2.0 * scipy.special.ellipk(self.m) * (phase - np.round(phase))
+        cn = scipy.special.ellipj(argument, self.m)[1]
         return self.trough + self.height * cn**2
 
     @property
     def rising_phase(self) -> float:
         """Phase in (0, 1/2) where the surface passes still water upwards as time goes on [-]."""
         amplitude = math.asin(math.sqrt(1.0 + self.trough / self.height))
-        return float(ellipkinc(amplitude, self.m) / (2.0 * ellipk(self.m)))
+        phase = scipy.special.ellipkinc(amplitude, self.m) / (2.0 * scipy.special.ellipk(self.m))
+        return float(phase)
 
 
 def cnoidal_wave(height: float, period: float, depth: float, gravity: float) -> CnoidalWave:
@@ -179,9 +179,10 @@ def cnoidal_wave(height: float, period: float, depth: float, gravity: float) -> 
 
     # 1 - m spans many decades, so its logarithm is what is solved for.
     low, high = math.log(CNOIDAL_SMALLEST_COMPLEMENT), math.log(_longest_complement(height, depth))
-    complement = math.exp(brentq(excess, low, high, xtol=1e-13))
+    complement = math.exp(scipy.optimize.brentq(excess, low, high, xtol=1e-13))
     m = 1.0 - complement
-    trough = (height / m) * (complement - ellipe(m) / ellipkm1(complement))
+    quarter = scipy.special.ellipkm1(complement)
+    trough = (height / m) * (complement - scipy.special.ellipe(m) / quarter)
     speed = _cnoidal_celerity(complement, height, depth, gravity)
     return CnoidalWave(height, period, depth, m, speed * period, speed, float(trough))
 
@@ -200,21 +201,22 @@ def cnoidal_period_range(height: float, depth: float, gravity: float) -> tuple[f
 def _longest_complement(height, depth):
     """1 - m of the shortest wave, from H L^2 / h^3 = (16/3) m K^2 with L = 8 h."""
     target = 3.0 / 16.0 * ursell(height, CNOIDAL_SHORTEST_LENGTH * depth, depth)
-    return brentq(
-        lambda complement: (1.0 - complement) * ellipkm1(complement) ** 2 - target,
+    return scipy.optimize.brentq(
+        lambda complement: (1.0 - complement) * scipy.special.ellipkm1(complement) ** 2 - target,
         CNOIDAL_SMALLEST_COMPLEMENT,
         1.0,
     )
 
 
 def _cnoidal_celerity(complement, height, depth, gravity):
-    m, quarter = 1.0 - complement, ellipkm1(complement)
-    bracket = 1.0 - m / 2.0 - 1.5 * ellipe(m) / quarter
+    m, quarter = 1.0 - complement, scipy.special.ellipkm1(complement)
+    bracket = 1.0 - m / 2.0 - 1.5 * scipy.special.ellipe(m) / quarter
     return math.sqrt(gravity * depth) * float(1.0 + height / (m * depth) * bracket)
 
 
 def _cnoidal_period(complement, height, depth, gravity):
-    length = math.sqrt(16.0 * (1.0 - complement) * depth**3 / (3.0 * height)) * ellipkm1(complement)
+    quarter = scipy.special.ellipkm1(complement)
+    length = math.sqrt(16.0 * (1.0 - complement) * depth**3 / (3.0 * height)) * quarter
     return float(length) / _cnoidal_celerity(complement, height, depth, gravity)
 
 

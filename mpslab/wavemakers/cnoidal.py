@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
+import scipy
 
 from mpslab import breaking, paddle, waves
 
@@ -74,7 +74,7 @@ def _one_period(wave):
     path = np.zeros_like(times)
     for i, t in enumerate(times[:-1]):
         path[i + 1] = path[i] + _runge_kutta_increment(speed, t, path[i], dt)
-    return CubicHermiteSpline(times, path, speed(times, path))
+    return scipy.interpolate.CubicHermiteSpline(times, path, speed(times, path))
 
 
 def _runge_kutta_increment(speed, t, x, dt):

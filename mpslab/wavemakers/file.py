@@ -4,7 +4,7 @@ import csv
 import math
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
+import scipy
 
 from mpslab import paddle
 
@@ -21,9 +21,9 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     rows, a value that is not a finite number, a time below 0 or times that do not increase.
     """
     times, values = _read(wavemaker.file)
-    slopes = PchipInterpolator(times, values).derivative()(times)
+    slopes = scipy.interpolate.PchipInterpolator(times, values).derivative()(times)
     slopes[[0, -1]] = 0.0
-    record = CubicHermiteSpline(times, values - values[0], slopes)
+    record = scipy.interpolate.CubicHermiteSpline(times, values - values[0], slopes)
 
     def motion(t):
         travel = record(np.clip(t, times[0], times[-1]))
