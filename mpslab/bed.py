@@ -59,6 +59,12 @@ def layer(points, depth, spacing):
     return np.vstack(pieces)
 
 
+def count(points, depth, spacing):
+    """How many particles `layer` puts along the line `depth` below the bed."""
+    pieces = np.diff(_offset(points, depth), axis=0)
+    return float(np.maximum(np.round(np.hypot(*pieces.T) / spacing), 1.0).sum())
+
+
 def _slope(a, b):
     return (b[1] - a[1]) / (b[0] - a[0])
 

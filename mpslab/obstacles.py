@@ -37,7 +37,7 @@ def around(case, start, end):
     """What the obstacles leave of a box of water from start to end: such boxes, as pairs [m]."""
     boxes, spacing = [(start, end)], case.particles.spacing
     for low, high in blocks(case) * spacing:
-        boxes = [piece for box in boxes for piece in _cut(*box, low, high, spacing)]
+        boxes = [piece for box in boxes for piece in cut(*box, low, high, spacing)]
     return boxes
 
 
@@ -87,6 +87,8 @@ def deep_inside(case, position):
 
     position : (n, 3) float64 [m]; returns (n,) int
     """
+    if not case.obstacle:
+        return np.full(len(position), -1)
     return _holder(case, position / case.particles.spacing, margin=1.0)
 
 
@@ -114,8 +116,8 @@ def _size(case):
     return round(case.tank.length / spacing), max(round(case.tank.width / spacing), 1)
 
 
-def _cut(start, end, low, high, spacing):
-    """The boxes that a block leaves of another box: along x first, then y, then z."""
+def cut(start, end, low, high, spacing):
+    """The boxes that a block leaves of another box, as pairs: along x first, then y, then z."""
     if any(end[k] <= low[k] or start[k] >= high[k] for k in range(3)):
         return [(start, end)]
     pieces = []

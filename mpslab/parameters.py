@@ -10,7 +10,7 @@ from mpslab.bed import elevation
 from mpslab.keys import CaseError, check_table, check_value, key, shown
 
 # A name becomes the heading of a column, or part of a file name.
-NAME = {"kind": "text", "forbidden": ",;\"'[]/\\#"}
+NAME = {"kind": "text", "forbidden": ",;\"'[]/\\#", "longest": 80}
 
 
 @dataclass(frozen=True, kw_only=True)

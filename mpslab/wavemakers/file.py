@@ -164,7 +164,7 @@ def _short(times, end):
 def _rounded(record, wavemaker, acceleration):
     """Whether the last digit alone makes much of the acceleration."""
     step = float(np.median(np.diff(record.times)))
-    noise = 2.0 * record.digit / step**2
+    noise = 2.0 * record.digit / step / step
     if len(record.times) < FEW or wavemaker.smoothing >= 4.0 * step:
         return ""
     if noise <= ROUNDED * acceleration:
