@@ -86,7 +86,8 @@ def require(fits: bool, name: str, value, rule: str) -> None:
 
 def did_you_mean(word, choices) -> str:
     """The nearest of the choices, as the end of an error message; empty if none is near."""
-    close = difflib.get_close_matches(str(word), choices, n=1, cutoff=0.5)
+    word = word if isinstance(word, str) else shown(word)
+    close = difflib.get_close_matches(word, choices, n=1, cutoff=0.5)
     return f"; did you mean {close[0]}?" if close else ""
 
 

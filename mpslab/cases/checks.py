@@ -11,7 +11,7 @@ from mpslab import obstacles, plugins
 from mpslab.cases import contents
 from mpslab.cases.contents import ROUNDING
 from mpslab.census import census
-from mpslab.keys import require, require_choice, toml_name
+from mpslab.keys import CaseError, require, require_choice, toml_name
 from mpslab.parameters import Case
 
 # Above this a case is taken for a slip of the pen: its arrays would take hundreds of gigabytes.
@@ -19,7 +19,7 @@ MOST_PARTICLES = 1e9
 
 # How many tables, or points, there may be under a key.
 MOST = {"water": 100, "obstacle": 100, "gate": 100, "gauge": 1000, "probe": 1000}
-MOST_POINTS, MOST_PICTURES = 10_000, 1000
+MOST_POINTS, MOST_PICTURES = 2000, 1000
 
 # Theories in which wavemaker.height is the height of the wave.
 WAVES = ("linear", "second_order", "cnoidal", "solitary")
@@ -70,7 +70,8 @@ def _check_numbers(case):
     lists.append(("tank.bed", case.tank.bed, MOST_POINTS))
     lists.append(("output.pictures", case.output.pictures, MOST_PICTURES))
     for name, items, most in lists:
-        require(len(items) <= most, name, f"{len(items)} entries", f"at most {most:,} of them")
+        if len(items) > most:
+            raise CaseError(f"{name} has {len(items):,} entries: must have at most {most:,}")
 
 
 def _check_bed(case):

@@ -9,8 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-MOST_ROWS = 100_000
+MOST_ROWS = 50_000
 MOST_BYTES = 20_000_000
+LARGEST, CLOSEST = 1e9, 1e-9  # numbers, and times between rows [s]: no record goes beyond
+FINEST = 1e-15  # [m] less counts as nothing
 SEPARATORS = (";", "\t", ",", None)  # None: blanks
 NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?", re.IGNORECASE)
 # What stands for a missing number, and is no word of a heading.
@@ -59,15 +61,17 @@ def read(path) -> Record:
     if heading and _is_heading(heading):
         _require_units(heading, f"{where}, line {lines[0][0]}")
         lines = lines[1:]
-    numbers, digits, marks = array("d"), -300.0, set()
+    numbers, digits, mark = array("d"), -300.0, ""
     for line, text in lines:
         cells = _cells(text, separator)
-        marks |= {mark for mark in ".," if any(mark in cell for cell in cells)}
-        numbers.extend(_two_numbers(cells, text, len(marks) < 2, f"{where}, line {line}"))
+        found = "." * any("." in cell for cell in cells) + "," * any("," in cell for cell in cells)
+        mark = mark or found[:1]
+        numbers.extend(_two_numbers(cells, text, found in ("", mark), f"{where}, line {line}"))
         digits = max(digits, _digits(cells[1]))
     times, values = np.array(numbers).reshape(-1, 2).T
     if len(times) < 2:
         raise ValueError(f"{where}: has {len(times)} rows of numbers; must have 2 or more")
+    values = np.where(np.abs(values) < FINEST, 0.0, values)
     _require_increasing(times, [line for line, _ in lines], where)
     return Record(where, times, values, 10.0**-digits, lines[0][0])
 
@@ -104,6 +108,8 @@ def _separator(lines):
 def _cells(text, separator):
     if separator is None:
         return text.split()
+    if '"' not in text:
+        return [cell.strip() for cell in text.split(separator)]
     try:
         row = next(csv.reader([text], delimiter=separator), [])
     except csv.Error:
@@ -135,9 +141,10 @@ def _require_units(cells, where):
 
 
 def _two_numbers(cells, text, alike, where):
+    """The numbers of a row, with one decimal mark and the same as in the rows before."""
     good = len(cells) == 2 and alike and all(map(NUMBER.fullmatch, cells))
     numbers = [float(cell.replace(",", ".")) for cell in cells] if good else [math.nan]
-    if not all(map(math.isfinite, numbers)):
+    if not all(abs(number) <= LARGEST for number in numbers):
         shown = text if len(text) <= 60 else text[:57] + "..."
         raise ValueError(
             f"{where}: {shown!r} must be two finite numbers, time [s] and displacement [m], parted "
@@ -155,7 +162,7 @@ def _digits(cell):
 
 
 def _require_increasing(times, lines, where):
-    for i in np.flatnonzero(np.diff(times) <= 0.0)[:1] + 1:
+    for i in np.flatnonzero(np.diff(times) < CLOSEST)[:1] + 1:
         raise ValueError(
             f"{where}, line {lines[i]}: time = {times[i]:g} s: must be above that of the row"
             f" before, {times[i - 1]:g} s"
