@@ -193,7 +193,7 @@ def test_stroke_that_follows_from_the_height_is_held_against_the_tank():
     with pytest.raises(CaseError) as caught:
         preflight(cases.load_case("plunging_breaker", changes))
     message = str(caught.value)
-    assert "wavemaker.height = 0.02 with wavemaker.period = 15 s: moves the piston by 0.7" in message
+    assert "wavemaker.height = 0.02 with wavemaker.period = 15 s: moves the piston" in message
     assert "< tank.length = 0.8 m" in message
     assert "x <= 0.588 m, 3 spacings before the shore" in message
 
