@@ -1,15 +1,16 @@
 """How many particles a case has, by arithmetic: nothing is laid out, whatever the size.
 
-The columns of the tank are counted as `mpslab.geometry` stacks them; of very many, some stand for
-all.  The sum is exact but for discs, dips of a staircase, and tanks of very many columns; wall that
-an obstacle covers counts as wall still.
+The columns of the tank are counted as `filling` and `geometry` lay them; of very many, some stand
+for all.  The sum is exact but for discs, dips of a staircase, and tanks of very many columns; wall
+that an obstacle covers counts as wall still.
 """
 
 import numpy as np
 
 from mpslab import bed as beds
-from mpslab import gates, obstacles
-from mpslab.geometry import effective_length, filled, rows_across
+from mpslab import filling, gates, obstacles
+from mpslab.filling import effective_length
+from mpslab.geometry import rows_across
 from mpslab.particles import (
     DUMMY,
     FLUID,
@@ -65,22 +66,17 @@ def _columns(case, first, last):
     return (column + 0.5) * case.particles.spacing, number / max(seen, 1)
 
 
-def _stacked(case, x, bottom, top):
-    """Particles in the columns at x between two heights, none below the bed, (n,) float64."""
+def _stacked(case, x, top):
+    """Solid particles in the columns at x from the bed up to a height, (n,) float64."""
     spacing = case.particles.spacing
-    ground = beds.elevation(case.tank.bed, x)
-    if case.particles.bed == "staircase":
-        ground = np.ceil(ground / spacing - 0.5) * spacing
-        first = np.maximum(ground, np.round(bottom / spacing) * spacing)
-    else:
-        lean = np.sqrt(1.0 + beds.slope(case.tank.bed, x) ** 2)
-        first = np.where(bottom > ground, bottom, ground + 0.5 * spacing * (lean - 1.0))
-    return np.maximum(np.round((top - first) / spacing), 0.0)
+    low, first = filling.ground(case, x)
+    return np.maximum(np.round((top - low - first) / spacing + 0.5), 0.0)
 
 
 def _water(case):
     spacing = case.particles.spacing
-    boxes = [(box.start, box.end, box.shape) for box in case.water] or [(*filled(case), "box")]
+    boxes = [(water.start, water.end, water.shape) for water in case.water]
+    boxes = boxes or [(*filling.filled(case), "box")]
     total = 0.0
     for start, end, shape in boxes:
         share = np.pi / 4.0 if shape == "disc" else 1.0
@@ -90,7 +86,8 @@ def _water(case):
             for left, right in gates.faces(case):
                 x = x[(x < left) | (x > right)]
             across = round(high[1] / spacing) - round(low[1] / spacing) if case.dim == 3 else 1
-            total += share * across * each * _stacked(case, x, low[2], high[2]).sum()
+            height = np.maximum(high[2] - filling.ground(case, x, low[2])[0], 0.0) / spacing
+            total += share * across * each * height.sum()
     return total
 
 
@@ -117,8 +114,8 @@ def _ends(case):
     """End walls, and piston, in the section by kind."""
     spacing, layers = case.particles.spacing, case.particles.layers
     out = (np.arange(layers) + 0.5) * spacing
-    left = _stacked(case, -out, -np.inf, case.tank.height)
-    right = _stacked(case, effective_length(case) + out, -np.inf, case.tank.height)
+    left = _stacked(case, -out, case.tank.height)
+    right = _stacked(case, effective_length(case) + out, case.tank.height)
     if case.wavemaker.type == "none":
         return {WALL: left[0] + right[0], DUMMY: left[1:].sum() + right[1:].sum()}
     return {
@@ -134,7 +131,7 @@ def _gates(case):
     found, spacing = {GATE: 0.0, GATE_DUMMY: 0.0}, case.particles.spacing
     for low, high in gates.faces(case):
         x, _ = _columns(case, round(low / spacing), round(high / spacing))
-        stacks = _stacked(case, x, -np.inf, case.tank.height)
+        stacks = _stacked(case, x, case.tank.height)
         found[GATE] += stacks[0] + stacks[-1]
         found[GATE_DUMMY] += stacks[1:-1].sum()
     return found
@@ -145,7 +142,7 @@ def _side(case, behind):
     spacing, layers = case.particles.spacing, case.particles.layers
     length = round(case.tank.length / spacing)
     x, each = _columns(case, -behind - layers, length + layers)
-    stacks = each * _stacked(case, x, -np.inf, case.tank.height)
+    stacks = each * _stacked(case, x, case.tank.height)
     inside = (x > -(behind + 1.0) * spacing) & (x < effective_length(case) + spacing)
     return stacks[inside].sum(), stacks.sum()
 
@@ -161,7 +158,7 @@ def _obstacles(case):
         end = (min(high[0], length), min(high[1], rows), high[2])
         pieces = [(start, end)]
         for other in seen:
-            pieces = [left for piece in pieces for left in obstacles.cut(*piece, *other, 1.0)]
+            pieces = [left for piece in pieces for left in obstacles.cut(*piece, *other)]
         seen.append((low, high))
         all_of_it = sum(_filled(case, *piece) for piece in pieces)
         sizes = np.array([end[0] - start[0], end[1] - start[1]])

@@ -8,7 +8,8 @@ import numpy as np
 import scipy
 
 from mpslab import bed as beds
-from mpslab import gates, obstacles
+from mpslab import filling, gates, obstacles
+from mpslab.filling import effective_length
 from mpslab.particles import (
     DUMMY,
     FLUID,
@@ -19,11 +20,6 @@ from mpslab.particles import (
     WALL,
     make_particles,
 )
-
-
-def effective_length(case):
-    """Length of the tank in whole spacings [m]."""
-    return round(case.tank.length / case.particles.spacing) * case.particles.spacing
 
 
 def rows_across(case):
@@ -62,9 +58,8 @@ def build_particles(case, backmost=0.0):
         Least displacement of the piston; the bed reaches that far behind it.
     """
     spacing = case.particles.spacing
-    water = _water_section(case)
     solid, kind = _solid_section(case, backmost)
-    position, kinds = _repeat_across(case, water, solid, kind, backmost)
+    position, kinds = _repeat_across(case, solid, kind, backmost)
     if case.obstacle:
         position, kinds = _with_obstacles(case, position, kinds)
     position[kinds == FLUID] += _jitter(case, np.count_nonzero(kinds == FLUID))
@@ -97,65 +92,13 @@ def _columns(case, start, end):
     return (np.arange(round(start / spacing), round(end / spacing)) + 0.5) * spacing
 
 
-def _stack(case, x, bottom, top):
-    """Particles of one column, from the bed up, none squeezed in: (n, 2) [m]."""
+def _stack(case, x, top):
+    """Solid particles of one column, from the bed up, none squeezed in: (n, 2) [m]."""
     spacing = case.particles.spacing
-    ground = float(beds.elevation(case.tank.bed, x))
-    if case.particles.bed == "staircase":
-        ground = np.ceil(ground / spacing - 0.5) * spacing
-        first = max(ground, np.round(bottom / spacing) * spacing) + 0.5 * spacing
-    elif bottom > ground:
-        first = bottom + 0.5 * spacing
-    else:
-        lean = np.sqrt(1.0 + float(beds.slope(case.tank.bed, x)) ** 2)
-        first = ground + 0.5 * spacing * lean
+    low, first = filling.ground(case, x)
+    first = float(low + first)
     n = max(round((top - (first - 0.5 * spacing)) / spacing), 0)
     return np.column_stack([np.full(n, x), first + np.arange(n) * spacing])
-
-
-def filled(case):
-    """Box of the water of a tank that is filled to its still depth, (start, end) [m]."""
-    return (0.0, 0.0, -np.inf), (effective_length(case), case.tank.width, case.tank.depth)
-
-
-def _water_section(case):
-    """Water particles as (x, z, y from, y to) rows: boxes may fill a part of the width."""
-    rows = [np.zeros((0, 4))]
-    for water in case.water:
-        if water.shape == "disc":
-            rows.append(_disc(case, water))
-        else:
-            rows.append(_box(case, water.start, water.end))
-    return np.vstack(rows) if case.water else _box(case, *filled(case))
-
-
-def _box(case, start, end):
-    """Rows of the section for a box of water, less what solids take of it, (n, 4) [m]."""
-    rows, spacing = [np.zeros((0, 4))], case.particles.spacing
-    for low, high in obstacles.around(case, start, end):
-        sides = [round(low[1] / spacing) * spacing, round(high[1] / spacing) * spacing]
-        for x in columns(case, low, high):
-            stack = _stack(case, x, low[2], high[2])
-            across = np.broadcast_to(sides, (len(stack), 2))
-            rows.append(np.hstack([stack, across]))
-    return np.vstack(rows)
-
-
-def columns(case, start, end):
-    """x of the columns of water in a box [m], a list: those that are in no gate."""
-    along = _columns(case, start[0], min(end[0], effective_length(case)))
-    return [x for x in along if not gates.holds(case, x)]
-
-
-def _disc(case, water):
-    """Rows of the section for the disc in a box: those of the lattice with their centre inside."""
-    spacing = case.particles.spacing
-    (x0, y0, z0), (x1, _, z1) = water.start, water.end
-    whole = np.round(z0 / spacing) * spacing
-    rows = _box(case, (x0, y0, whole), water.end)
-    across = (rows[:, 0] - 0.5 * (x0 + x1)) / (0.5 * (x1 - x0))
-    up = (rows[:, 1] - 0.5 * (z0 + z1)) / (0.5 * (z1 - z0))
-    return rows[across**2 + up**2 <= 1.0 + 1e-9]
 
 
 def _solid_section(case, backmost):
@@ -211,7 +154,7 @@ def _end_wall(case, floor, side):
     rows, kinds = [], []
     for k in range(case.particles.layers):
         x = -(k + 0.5) * spacing if side < 0 else end + (k + 0.5) * spacing
-        stack = _stack(case, x, -np.inf, case.tank.height)
+        stack = _stack(case, x, case.tank.height)
         rows.append(stack)
         kinds.append(np.full(len(stack), DUMMY if k else WALL, np.int8))
     wall, kind = np.vstack(rows), np.concatenate(kinds)
@@ -225,7 +168,7 @@ def _gates(case, floor):
     for low, high in gates.faces(case):
         columns = _columns(case, low, high)
         for x in columns:
-            rows.append(_stack(case, x, -np.inf, case.tank.height))
+            rows.append(_stack(case, x, case.tank.height))
             outer = x in (columns[0], columns[-1])
             kinds.append(np.full(len(rows[-1]), GATE if outer else GATE_DUMMY, np.int8))
     plates, kind = np.vstack(rows), np.concatenate(kinds)
@@ -238,17 +181,19 @@ def _clear(case, section, floor):
     return scipy.spatial.cKDTree(floor).query(section)[0] > beds.CLOSEST * case.particles.spacing
 
 
-def _repeat_across(case, water, solid, kind, backmost):
+def _repeat_across(case, solid, kind, backmost):
     """Repeat the cross-section in y; add side walls where the tank has them."""
     spacing, n = case.particles.spacing, rows_across(case)
     flat = case.tank.width == 0.0
     positions, kinds = [], []
+    sections = [filling.section(case, row) for row in range(1 if flat else len(filling.PHASES))]
     walled = not (flat or case.tank.periodic)
     layers = case.particles.layers if walled else 0
     for row in range(-layers, n + layers):
         y = 0.0 if flat else (row + 0.5) * spacing
         outside = max(-row, row - n + 1)
         if outside <= 0:
+            water = sections[row % len(sections)]
             wet = flat | ((water[:, 2] < y) & (y < water[:, 3]))
             _add(positions, kinds, water[wet, :2], FLUID, y)
             _add(positions, kinds, solid, kind, y)
@@ -263,7 +208,7 @@ def _side_wall(case, solid, kind, outside, backmost):
     spacing, layers = case.particles.spacing, case.particles.layers
     behind = np.ceil(-backmost / spacing) * spacing if case.wavemaker.type != "none" else 0.0
     x = _columns(case, -behind - layers * spacing, effective_length(case) + layers * spacing)
-    section = np.vstack([_stack(case, place, -np.inf, case.tank.height) for place in x])
+    section = np.vstack([_stack(case, place, case.tank.height) for place in x])
     fixed = (kind == WALL) | (kind == DUMMY)
     below = solid[:, 1] < beds.elevation(case.tank.bed, solid[:, 0])
     floor = solid[fixed & below]

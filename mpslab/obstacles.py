@@ -45,7 +45,7 @@ def around(case, start, end):
     """What the obstacles leave of a box of water from start to end: such boxes, as pairs [m]."""
     boxes, spacing = [(start, end)], case.particles.spacing
     for low, high in blocks(case) * spacing:
-        boxes = [piece for box in boxes for piece in cut(*box, low, high, spacing)]
+        boxes = [piece for box in boxes for piece in cut(*box, low, high)]
     return boxes
 
 
@@ -90,6 +90,11 @@ def press(case, particles):
     particles.pressure[rows] = np.where(off < NEAR * spacing, pressure, 0.0)
 
 
+def holds(case, position):
+    """Whether places (n, 3) [m] are inside an obstacle, (n,) bool."""
+    return _inside(case, position / case.particles.spacing)
+
+
 def deep_inside(case, position):
     """Number of the obstacle that holds a place more than a spacing below its faces, or -1.
 
@@ -123,16 +128,14 @@ def _size(tank, spacing):
     return round(tank.length / spacing), max(round(tank.width / spacing), 1)
 
 
-def cut(start, end, low, high, spacing):
+def cut(start, end, low, high):
     """The boxes that a block leaves of another box, as pairs: along x first, then y, then z."""
     if any(end[k] <= low[k] or start[k] >= high[k] for k in range(3)):
         return [(start, end)]
     pieces = []
     for k in range(3):
         if start[k] < low[k]:
-            # Water is stacked in whole particles, to the nearest: below a block, to the one below.
-            top = low[k] - 0.499 * spacing if k == 2 else low[k]
-            pieces.append((start, (*end[:k], top, *end[k + 1 :])))
+            pieces.append((start, (*end[:k], low[k], *end[k + 1 :])))
             start = (*start[:k], low[k], *start[k + 1 :])
         if end[k] > high[k]:
             pieces.append(((*start[:k], high[k], *start[k + 1 :]), end))

@@ -231,7 +231,7 @@ class Scheme:
     )
     settling: int = key(
         "passes of 'corrected_shifting' before the start, which take the water off the lattice",
-        80,
+        400,
         low=0,
         high=10_000,
     )

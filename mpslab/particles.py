@@ -82,3 +82,9 @@ def make_particles(position, kind):
         number_density=np.zeros(n),
         surface=np.zeros(n, np.uint8),
     )
+
+
+def joined(first, second):
+    """The particles of two sets as one, in this order."""
+    both = {f.name: (getattr(first, f.name), getattr(second, f.name)) for f in fields(ParticleSet)}
+    return ParticleSet(**{name: np.concatenate(arrays) for name, arrays in both.items()})

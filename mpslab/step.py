@@ -1,5 +1,6 @@
 """One time step of the semi-implicit particle method."""
 
+import math
 from dataclasses import dataclass, field
 from types import ModuleType
 
@@ -15,6 +16,7 @@ from mpslab.slabs import make_slabs
 from mpslab.stencil import Stencil, make_stencil
 
 LAYERS = 20  # of water, up to which the weight of a density error does not depend on them
+WAKING = 2.0  # sqrt(depth / gravity): in this time the density begins to count
 
 
 @dataclass
@@ -126,15 +128,20 @@ def solver_of(case, ranks):
     return solver
 
 
-def density_rate(case):
+def density_rate(case, time):
     """At which rate the mixed sources take back an error of the number density [1/s].
 
     ``scheme.gamma`` is its share in a largest step, up to 20 layers of water; of more layers it
     is less, so that the time is always the same part of that of a wave across the depth: under
     the weight of the layers, a change of rate needs a pressure that grows with their square.
+    For the same reason it begins with nothing, and is whole after the time that a wave takes for
+    twice the depth: at once, it would give the water at rest a blow of several times its weight.
     """
     layers = case.tank.depth / case.particles.spacing if case.fluid.gravity else 0.0
-    return case.scheme.gamma * LAYERS / max(layers, LAYERS) / case.time.maximum
+    rate = case.scheme.gamma * LAYERS / max(layers, LAYERS) / case.time.maximum
+    waking = WAKING * math.sqrt(case.tank.depth / case.fluid.gravity) if layers else 0.0
+    s = min(time / waking, 1.0) if waking else 1.0
+    return rate * s * s * (3.0 - 2.0 * s)
 
 
 def advance(flow, dt):
@@ -241,7 +248,8 @@ def _assemble(flow, graded, pull, dt):
     right = np.empty(len(particles))
     flow.source.source(
         particles.position, velocity, particles.kind, n, neighbors.indptr, neighbors.indices,
-        flow.stencil, flow.correction, dt, density_rate(flow.case), flow.case.scheme, right,
+        flow.stencil, flow.correction, dt, density_rate(flow.case, flow.time),
+        flow.case.scheme, right,
     )  # fmt: skip
     if flow.extrapolates:
         right += walls.flux(particles, neighbors, stencil, terms, pull)

@@ -5,7 +5,7 @@ from itertools import combinations
 import numpy as np
 
 from mpslab import bed as beds
-from mpslab import gates, geometry, obstacles
+from mpslab import filling, gates, obstacles
 from mpslab.census import columns_between
 from mpslab.keys import require, shown
 
@@ -92,7 +92,7 @@ def _check_obstacles(case):
 
 def _room(case):
     """What the obstacles leave of the water: boxes as pairs of corners [m]."""
-    boxes = [(box.start, box.end) for box in case.water] or [geometry.filled(case)]
+    boxes = [(box.start, box.end) for box in case.water] or [filling.filled(case)]
     return [piece for box in boxes for piece in obstacles.around(case, *box)]
 
 
@@ -101,7 +101,7 @@ def _check_gates(case):
     blocks = obstacles.blocks(case) * spacing
     slack = 1e-6 * spacing
     for i, (low, high) in enumerate(faces):
-        most = geometry.effective_length(case) - (obstacles.least_thickness(case) + 1) * spacing
+        most = filling.effective_length(case) - (obstacles.least_thickness(case) + 1) * spacing
         x = case.gate[i].x
         inside = spacing - slack <= low <= most + slack
         rule = f"from {spacing:g} to {most:g} m, for a gate {high - low:g} m thick"

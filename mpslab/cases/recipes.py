@@ -15,7 +15,7 @@ RECIPES = {
         "laplacian": "standard",
         "solver": "deflated",
         "stabiliser": ["corrected_shifting", "ds"],
-        "settling": 80,
+        "settling": 400,
         "effective_radius": 2.1,
         "laplacian_radius": 2.1,
     },
