@@ -16,8 +16,9 @@ PROBE_RADIUS = 2.1  # [spacings]
 # A probe is in the water where a particle of it is as near as that: within it one always is, and
 # half a spacing above its surface none is any more [spacings].
 WET = 1.1
-# A particle of a wall is as near as that to any place on its face [spacings].
-ON_WALL = 0.9
+# A particle of a wall is as near as that to any place on its face, which is laid out up to half a
+# spacing from where the case has it [spacings].
+ON_WALL = 1.25
 # Share of the largest moment of the neighbours below which they count as in one plane.
 LEAST_SPREAD = 0.04
 ONE_PLACE = 1e-12  # [spacings^2] moment of neighbours that are all at one place

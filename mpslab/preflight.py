@@ -20,9 +20,11 @@ SECONDS_PER_PARTICLE_STEP = {2: 2.4e-6, 3: 4.8e-6}
 BYTES_PER_PARTICLE = {2: 900, 3: 2200}
 BYTES_OF_PROGRAM = 120e6
 BYTES_PER_ENTRY = 40  # of a table's row, in memory
-# Of a frame on the disk: place and field of a particle, packed, and what a frame takes by itself.
+# Of a particle in a frame on the disk, packed: its place (""), and each field that is not near to
+# the same for all.
 BYTES_PER_POINT = {"": 11.0, "velocity": 10.0, "pressure": 3.5, "number_density": 3.5}
-BYTES_PER_DIGITS = 20.0  # of an entry of a table on the disk
+BYTES_PER_NUMBER = 20.0  # of an entry of a table on the disk
+LEAST_STROKE = 0.1  # spacings
 REGULAR = ("linear", "second_order", "cnoidal")
 
 
@@ -58,8 +60,9 @@ def preflight(case):
     report.sections["Particles"] = _particles(case, count)
     report.sections["Cost (one core, rough)"] = _cost(case, count.sum(), size, report.warnings)
     report.sections["Results (rough)"] = _results(case, count.sum(), size)
+    if paddle:
+        report.warnings += [*paddle.doubts, *_hardly_moves(case, paddle)]
     if paddle and paddle.stroke > 0.0:
-        report.warnings += paddle.doubts
         report.sections["Wavemaker"] = _wavemaker(case, paddle)
         if paddle.height > 0.0:
             describe = _regular_wave if case.wavemaker.type in REGULAR else _solitary_wave
@@ -149,7 +152,7 @@ def _results(case, n, size):
     """Number and size of what the run writes."""
     fields = ("", *case.output.fields)
     frame = n * sum(BYTES_PER_POINT.get(name, 0.1) for name in fields)
-    tables = BYTES_PER_DIGITS * sum(_entries(case, size).values())
+    tables = BYTES_PER_NUMBER * sum(_entries(case, size).values())
     return [
         ("frames", f"{size.frames:,} of {_bytes(frame)}, {_bytes(size.frames * frame)}"),
         ("tables", f"{size.steps:,} rows of steps, {size.readings:,} of gauges, {_bytes(tables)}"),
@@ -167,6 +170,14 @@ def _duration(seconds):
     if seconds < 120.0:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 7200.0 else f"{seconds / 3600:.1f} h"
+
+
+def _hardly_moves(case, paddle):
+    if case.wavemaker.type != "still" and paddle.stroke < LEAST_STROKE * case.particles.spacing:
+        yield (
+            f"the piston moves by {paddle.stroke:.2g} m only until time.end = {case.time.end:g} s, "
+            "less than a tenth of particles.spacing"
+        )
 
 
 def _wavemaker(case, paddle):

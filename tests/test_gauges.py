@@ -195,7 +195,8 @@ def test_probe_on_the_wall_above_the_water_reads_the_dry_wall(above):
     position = np.concatenate([water, wall])
     kind = np.repeat([FLUID, WALL], [len(water), len(wall)])
     pressure = np.maximum(9810 * (TOP - position[:, 2]), 0.0)
-    point = (0.0, 0.0, TOP + above * D0)
-    found = probe(position, 0 * position, pressure, kind, D0, point)
-    assert found[0] == 0.0
-    assert np.isnan(found[1:]).all()
+    for off in (-0.5, 0.0, 0.5):  # the wall as it is laid, from where the case has it
+        point = (off * D0, 0.0, TOP + above * D0)
+        found = probe(position, 0 * position, pressure, kind, D0, point)
+        assert found[0] == 0.0
+        assert np.isnan(found[1:]).all()

@@ -185,6 +185,14 @@ def test_record_is_described_as_one_whatever_the_height(tmp_path):
     assert {"stroke", "record", "top speed", "largest acceleration"} <= lines.keys()
 
 
+def test_piston_that_hardly_moves_brings_a_warning(tmp_path):
+    path = tmp_path / "record.csv"
+    path.write_text("0,0.5\n1000,0.51\n")  # in milliseconds
+    changes = {"wavemaker.type": "file", "wavemaker.file": str(path)}
+    found = preflight(cases.load_case("plunging_breaker", changes)).warnings
+    assert any("the piston moves by" in line and "time.end = 1.25 s" in line for line in found)
+
+
 # The piston's motion and the tank
 
 
