@@ -139,12 +139,9 @@ class Wavemaker:
     stroke: float = key("stroke of the piston; 0 to follow from height", 0.0, unit="m", low=0)
     start: float = key("time in which the motion fades in", 0.0, unit="s", low=0)
     file: str = key("file of time [s] and displacement [m], such as CSV", "")
-    offset: float = key(
-        "time of the file at which the run begins", 0.0, unit="s", low=-1e9, high=1e9
-    )
+    offset: float = key("time of the file at t = 0 of the run", 0.0, unit="s", low=-1e9, high=1e9)
     smoothing: float = key(
-        "period of wiggles in the file that a smoothing spline halves, with shorter ones taken out "
-        "and straight lines kept; 0 for none",
+        "period of wiggles in the file that a spline halves; it takes out shorter ones, 0 for none",
         0.0,
         unit="s",
         low=0,
