@@ -1,10 +1,23 @@
 """The bed as a line of points, and the layers of particles along it."""
 
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
 
 CLOSEST = 0.7  # spacings: a solid particle nearer to the bed layers than this is left out
+
+
+def _points(bed):
+    """Points of a bed, (n, 2) float64 [m]; those of a case, which are tuples, are kept."""
+    return _kept(bed) if isinstance(bed, tuple) else np.asarray(bed, float)
+
+
+@lru_cache(maxsize=4)
+def _kept(bed):
+    points = np.array(bed, float)
+    points.flags.writeable = False
+    return points
 
 
 def elevation(bed, x):
@@ -15,7 +28,7 @@ def elevation(bed, x):
     bed : sequence of (x, z) [m], x ascending
     x : array_like [m]
     """
-    points = np.asarray(bed, float)
+    points = _points(bed)
     x = np.asarray(x, float)
     z = np.interp(x, points[:, 0], points[:, 1])
     last = _slope(points[-2], points[-1])
@@ -24,13 +37,14 @@ def elevation(bed, x):
 
 def lowest(bed, start, end):
     """Lowest elevation of the bed between two places [m]."""
-    inside = [z for x, z in bed if start <= x <= end]
-    return float(min([*inside, elevation(bed, start), elevation(bed, end)]))
+    points = _points(bed)
+    inside = points[(points[:, 0] >= start) & (points[:, 0] <= end), 1]
+    return float(min(*elevation(points, (start, end)), inside.min(initial=np.inf)))
 
 
 def slope(bed, x):
     """Slope dz/dx of the bed at x [-]."""
-    points = np.asarray(bed, float)
+    points = _points(bed)
     inside = np.searchsorted(points[:, 0], x, side="right") - 1
     inside = np.clip(inside, 0, len(points) - 2)
     steep = np.diff(points[:, 1]) / np.diff(points[:, 0])
@@ -39,7 +53,7 @@ def slope(bed, x):
 
 def extended(bed, before, after):
     """The bed carried on: level before the first point, with its slope after the last."""
-    points = np.asarray(bed, float)
+    points = _points(bed)
     ahead = points[-1] + after * np.array([1.0, _slope(points[-2], points[-1])])
     behind = points[0] - [before, 0.0]
     return np.vstack([behind, points, ahead])
@@ -57,6 +71,12 @@ def layer(points, depth, spacing):
         n = max(round(float(np.hypot(*(end - start))) / spacing), 1)
         pieces.append(start + np.outer((np.arange(n) + 0.5) / n, end - start))
     return np.vstack(pieces)
+
+
+def count(points, depth, spacing):
+    """How many particles `layer` puts along the line `depth` below the bed."""
+    pieces = np.diff(_offset(points, depth), axis=0)
+    return float(np.maximum(np.round(np.hypot(*pieces.T) / spacing), 1.0).sum())
 
 
 def _slope(a, b):

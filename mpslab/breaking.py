@@ -14,6 +14,9 @@ from mpslab import waves
 # Madsen (1971): above this Ursell number the second-order crest has a false secondary crest.
 MADSEN_URSELL_LIMIT = 8.0 * math.pi**2 / 3.0
 
+# Goda (2010), abstract: the breaker index holds for slopes up to 1/10.
+GODA_STEEPEST = 0.1
+
 # McCowan (1894): highest solitary wave over depth.
 MCCOWAN_RATIO = 0.78
 

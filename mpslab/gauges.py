@@ -13,6 +13,12 @@ LARGEST_GAP = 1.0
 # Inside a solid no room is left for water, and a fraction of nothing would be noise.
 LEAST_ROOM = 0.25
 PROBE_RADIUS = 2.1  # [spacings]
+# A probe is in the water where a particle of it is as near as that: within it one always is, and
+# half a spacing above its surface none is any more [spacings].
+WET = 1.1
+# A particle of a wall is as near as that to any place on its face, which is laid out up to half a
+# spacing from where the case has it [spacings].
+ON_WALL = 1.25
 # Share of the largest moment of the neighbours below which they count as in one plane.
 LEAST_SPREAD = 0.04
 ONE_PLACE = 1e-12  # [spacings^2] moment of neighbours that are all at one place
@@ -97,8 +103,10 @@ def _top(level, excess, occupied):
 def probe(position, velocity, pressure, kind, spacing, point, width=0.0):
     """Pressure and velocity at a point, by moving least squares of first order.
 
-    The pressure is that of the particles that carry one (water, walls, piston, gates), the velocity
-    that of the water, within 2.1 spacings. A linear field comes back exactly.
+    Where there is water within 1.1 spacings, so up to half a spacing above its surface: the
+    pressure is that of the particles that carry one (water, walls, piston, gates), the velocity
+    that of the water, within 2.1 spacings. A linear field comes back exactly. Elsewhere there is no
+    velocity, and a pressure on walls only: that which they hold, 0 where they are dry.
 
     Parameters
     ----------
@@ -116,7 +124,7 @@ def probe(position, velocity, pressure, kind, spacing, point, width=0.0):
     Returns
     -------
     (4,) float64
-        Pressure [Pa] and the velocity components u, v, w [m/s]; NaN where there is no neighbour.
+        Pressure [Pa] and the velocity components u, v, w [m/s]; NaN where there is none.
     """
     reach = PROBE_RADIUS * spacing
     near = np.flatnonzero(np.abs(position[:, 0] - point[0]) < reach)
@@ -124,8 +132,11 @@ def probe(position, velocity, pressure, kind, spacing, point, width=0.0):
     offset[:, 1] = _minimal_image(offset[:, 1], width)
     inside = np.einsum("ij,ij->i", offset, offset) < reach**2
     near, offset = near[inside], offset[inside] / spacing
+    far = np.sqrt(np.einsum("ij,ij->i", offset, offset))
     wet = kind[near] == FLUID
     loaded = carries_pressure(kind[near])
+    if not np.any(far[wet] <= WET):
+        wet, loaded = np.zeros_like(wet), loaded & ~wet & (far <= ON_WALL)
     p = _least_squares(offset[loaded], pressure[near[loaded], None])
     return np.concatenate([p, _least_squares(offset[wet], velocity[near[wet]])])
 

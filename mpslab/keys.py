@@ -33,7 +33,8 @@ def key(doc, default=dataclasses.MISSING, *, kind="", unit="", name="", **limits
         low, high: range, ends included; above: lower end, left out; choices: allowed words;
         family: package of models to choose from;
         forbidden: characters that a text must not hold (such a text must not be empty either);
-        copy: of a key that names an input file, the name of its copy in a run folder.
+        copy: of a key that names an input file, the name of its copy in a run folder;
+        longest: most characters of a text.
     """
     kind = kind or _KINDS.get(type(default), "number")
     metadata = {"doc": doc, "kind": kind, "unit": unit, "name": name, **limits}
@@ -78,9 +79,16 @@ def require_choice(name: str, value, choices) -> None:
         raise CaseError(f"{name} = {shown(value)}: must be one of {', '.join(choices)}{hint}")
 
 
+def require(fits: bool, name: str, value, rule: str) -> None:
+    """Raise CaseError, with the key, its value and what it must be, unless it fits."""
+    if not fits:
+        raise CaseError(f"{name} = {shown(value)}: must be {rule}")
+
+
 def did_you_mean(word, choices) -> str:
     """The nearest of the choices, as the end of an error message; empty if none is near."""
-    close = difflib.get_close_matches(str(word), choices, n=1, cutoff=0.5)
+    word = word if isinstance(word, str) else shown(word)
+    close = difflib.get_close_matches(word, choices, n=1, cutoff=0.5)
     return f"; did you mean {close[0]}?" if close else ""
 
 
@@ -88,7 +96,10 @@ def shown(value) -> str:
     """A value in one short line."""
     if isinstance(value, bool):
         return str(value).lower()
-    line = repr(_as_lists(value))
+    try:
+        line = repr(_as_lists(value))
+    except ValueError:  # Python writes no whole number of thousands of digits
+        line = "a number of thousands of digits"
     return line if len(line) <= 80 else line[:77] + "..."
 
 
@@ -112,7 +123,8 @@ def _unit(metadata):
 
 def _range(metadata):
     if metadata.get("forbidden"):
-        return f"and not empty, without any of {metadata['forbidden']}"
+        longest = f", of at most {metadata['longest']} characters" if "longest" in metadata else ""
+        return f"and not empty, without any of {metadata['forbidden']}{longest}"
     low, above, high = (metadata.get(limit) for limit in ("low", "above", "high"))
     if above is not None:
         return f"> {above:g}" + (f" and <= {high:g}" if high is not None else "")
@@ -151,6 +163,7 @@ def _text(value, metadata):
         raise TypeError
     forbidden = metadata.get("forbidden", "")
     fits = value.isprintable() and value == value.strip() and not set(value) & set(forbidden)
+    fits = fits and len(value) <= metadata.get("longest", math.inf)
     if not fits or (forbidden and not value) or value not in metadata.get("choices", (value,)):
         raise ValueError
     return value

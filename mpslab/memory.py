@@ -1,6 +1,7 @@
-"""Keep freed memory in the process: every step asks for the same arrays again."""
+"""The memory of the machine, and freed memory kept: every step asks for the same arrays again."""
 
 import ctypes
+import os
 
 # Parameters of mallopt (malloc.h of the GNU C library), and the largest values they take.
 M_TRIM_THRESHOLD, M_MMAP_THRESHOLD = -1, -3
@@ -19,3 +20,11 @@ def keep_freed():
         return
     mallopt(M_TRIM_THRESHOLD, NEVER)
     mallopt(M_MMAP_THRESHOLD, LARGEST)
+
+
+def physical():
+    """Memory of this machine [bytes], 0 where the system does not say."""
+    try:
+        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (OSError, ValueError, AttributeError):
+        return 0

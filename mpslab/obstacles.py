@@ -4,6 +4,7 @@ A box is rounded to whole spacings.  Its particles stand on the lattice, half a 
 faces; boxes that touch or overlap make one body.
 """
 
+from functools import lru_cache
 from itertools import product
 from math import ceil
 
@@ -21,7 +22,14 @@ def blocks(case):
 
     Infinite where a box stands against the bed or a wall, for no water is beyond; so is y in 2-D.
     """
-    return np.array([_block(case, box) for box in case.obstacle]).reshape(-1, 2, 3)
+    return _blocks(case.obstacle, case.tank, case.particles.spacing)
+
+
+@lru_cache(maxsize=4)
+def _blocks(boxes, tank, spacing):
+    found = np.array([_block(tank, spacing, box) for box in boxes]).reshape(-1, 2, 3)
+    found.flags.writeable = False
+    return found
 
 
 def least_thickness(case):
@@ -37,7 +45,7 @@ def around(case, start, end):
     """What the obstacles leave of a box of water from start to end: such boxes, as pairs [m]."""
     boxes, spacing = [(start, end)], case.particles.spacing
     for low, high in blocks(case) * spacing:
-        boxes = [piece for box in boxes for piece in _cut(*box, low, high)]
+        boxes = [piece for box in boxes for piece in cut(*box, low, high)]
     return boxes
 
 
@@ -92,35 +100,36 @@ def deep_inside(case, position):
 
     position : (n, 3) float64 [m]; returns (n,) int
     """
+    if not case.obstacle:
+        return np.full(len(position), -1)
     return _holder(case, position / case.particles.spacing, margin=1.0)
 
 
-def _block(case, box):
-    tank, spacing = case.tank, case.particles.spacing
+def _block(tank, spacing, box):
     low, high = (np.round(np.array(corner) / spacing) for corner in (box.start, box.end))
-    length, width = _size(case)
+    length, width = _size(tank, spacing)
+    flat = tank.width == 0.0
     whole_width = low[1] <= 0.0 and high[1] >= width
     if low[0] <= 0.0:
         low[0] = -np.inf
     if high[0] >= length:
         high[0] = np.inf
-    if case.dim == 2 or whole_width or (low[1] <= 0.0 and not tank.periodic):
+    if flat or whole_width or (low[1] <= 0.0 and not tank.periodic):
         low[1] = -np.inf
-    if case.dim == 2 or whole_width or (high[1] >= width and not tank.periodic):
+    if flat or whole_width or (high[1] >= width and not tank.periodic):
         high[1] = np.inf
     if box.start[2] < beds.lowest(tank.bed, box.start[0], box.end[0]) + 0.5 * spacing:
         low[2] = -np.inf
     return low, high
 
 
-def _size(case):
+def _size(tank, spacing):
     """Length and width of the tank in whole spacings; width 1 in 2-D."""
-    spacing = case.particles.spacing
-    return round(case.tank.length / spacing), max(round(case.tank.width / spacing), 1)
+    return round(tank.length / spacing), max(round(tank.width / spacing), 1)
 
 
-def _cut(start, end, low, high):
-    """The boxes that a block leaves of another box: along x first, then y, then z."""
+def cut(start, end, low, high):
+    """The boxes that a block leaves of another box, as pairs: along x first, then y, then z."""
     if any(end[k] <= low[k] or start[k] >= high[k] for k in range(3)):
         return [(start, end)]
     pieces = []
@@ -136,7 +145,7 @@ def _cut(start, end, low, high):
 
 def _cells(case, low, high):
     """Lattice cells of a block inside the tank, (n, 3) int."""
-    length, width = _size(case)
+    length, width = _size(case.tank, case.particles.spacing)
     ends = np.clip([low[0], high[0]], 0, length) * case.particles.spacing
     ground = np.floor(beds.lowest(case.tank.bed, *ends) / case.particles.spacing)
     least, most = (0, 0, ground), (length, width, np.inf)
@@ -153,7 +162,7 @@ def _meets_water(case, place):
 
 def _open(case, place):
     """Whether places (n, 3) [spacings] are in the tank and in no obstacle, (n,) bool."""
-    length, width = _size(case)
+    length, width = _size(case.tank, case.particles.spacing)
     spacing, x, y = case.particles.spacing, place[:, 0], place[:, 1]
     if case.tank.periodic:
         place = np.column_stack([x, y % width, place[:, 2]])

@@ -28,6 +28,10 @@ class Paddle:
         Wave height that the theory expects of this motion; 0 where it says nothing.
     note : str
         The theory and its range in one line of plain words.
+    facts : tuple of (str, str)
+        What else there is to say about the motion, name and value.
+    doubts : tuple of str
+        What the run may suffer from, a line each.
     """
 
     displacement: Callable[[float], float]
@@ -37,9 +41,13 @@ class Paddle:
     farthest: float
     height: float
     note: str
+    facts: tuple = ()
+    doubts: tuple = ()
 
 
-def from_motion(motion: Callable, times, height: float, note: str, whole=None) -> Paddle:
+def from_motion(
+    motion: Callable, times, height: float, note: str, whole=None, facts=(), doubts=()
+) -> Paddle:
     """Paddle of a motion.
 
     Parameters
@@ -48,7 +56,7 @@ def from_motion(motion: Callable, times, height: float, note: str, whole=None) -
         Displacement at t >= 0, with motion(0) = 0.
     times : (n,) float64 [s]
         Times from 0 to the end of the run among which the extremes are looked for.
-    height, note
+    height, note, facts, doubts
         As in `Paddle`.
     whole : (m,) float64 [s], optional
         Times that cover all of the motion: a period after the soft start, or a whole record. Left
@@ -61,12 +69,23 @@ def from_motion(motion: Callable, times, height: float, note: str, whole=None) -
     def displacement(t: float) -> float:
         return 0.0 if t <= 0.0 else float(motion(t))
 
-    return Paddle(displacement, stroke, foremost, backmost, farthest, height, note)
+    return Paddle(
+        displacement, stroke, foremost, backmost, farthest, height, note, facts, doubts
+    )
 
 
-def sample_times(end: float, period: float) -> np.ndarray:
-    """Times from 0 to end [s], close enough to find the extremes of a motion with that period."""
-    return np.linspace(0.0, end, 1 + math.ceil(SAMPLES * end / period))
+def sample_times(end: float, period: float, start=0.0, samples=SAMPLES) -> np.ndarray:
+    """Times that hold the extremes until `end` [s] of a motion with that period [s].
+
+    The motion is faded in from 0 until `start` [s], so it goes farthest in its last period before
+    the end, or in the first one that is whole: they are as many whatever the end.
+
+    Returns
+    -------
+    (samples + 2,) float64 [s]
+    """
+    last = min(end, start + period)
+    return np.append(0.0, np.linspace(max(last - period, 0.0), last, samples + 1))
 
 
 def soft_start(t, start: float):

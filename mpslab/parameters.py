@@ -10,7 +10,7 @@ from mpslab.bed import elevation
 from mpslab.keys import CaseError, check_table, check_value, key, shown
 
 # A name becomes the heading of a column, or part of a file name.
-NAME = {"kind": "text", "forbidden": ",;\"'[]/\\#"}
+NAME = {"kind": "text", "forbidden": ",;\"'[]/\\#", "longest": 80}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -149,7 +149,16 @@ class Wavemaker:
     stroke: float = key("stroke of the piston; 0 to follow from height", 0.0, unit="m", low=0)
     start: float = key("time in which the motion fades in; 0 for none", 0.0, unit="s", low=0)
     file: str = key(
-        'CSV file of time [s] and displacement [m]; "" for none', "", copy="wavemaker.csv"
+        'file of time [s] and displacement [m], such as CSV; "" for none',
+        "",
+        copy="wavemaker.csv",
+    )
+    offset: float = key("time of the file at t = 0 of the run", 0.0, unit="s", low=-1e9, high=1e9)
+    smoothing: float = key(
+        "period of wiggles in the file that a spline halves; it takes out shorter ones, 0 for none",
+        0.0,
+        unit="s",
+        low=0,
     )
 
     def __post_init__(self):

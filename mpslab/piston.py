@@ -12,19 +12,49 @@ ROOM = 3  # spacings that are left between the piston and an obstacle or a gate
 def make_paddle(case):
     """Motion of a case's wavemaker, None when the tank has a fixed wall.
 
-    Raises ValueError where the wavemaker cannot make its wave, or would run into an obstacle or a
-    gate.
+    Raises ValueError where the wavemaker cannot make its wave, would leave the tank, or run into
+    the shore, an obstacle or a gate.
     """
     if case.wavemaker.type == "none":
         return None
     maker = plugins.load("wavemakers", case.wavemaker.type)
     paddle = maker.make(case.wavemaker, case.tank.paddle_depth, case.fluid.gravity, case.time.end)
+    _stay_in_tank(case, paddle)
     reach = paddle.foremost + ROOM * case.particles.spacing
     for i, box in enumerate(case.obstacle):
         _leave_room(f"obstacle.{i}.from", box.start, box.start[0], reach)
     for i, gate in enumerate(case.gate):
         _leave_room(f"gate.{i}.x", gate.x, gate.x, reach)
     return paddle
+
+
+def _stay_in_tank(case, paddle):
+    """Refuse a motion that is longer than the tank, or leaves no water between piston and shore."""
+    maker, tank = case.wavemaker, case.tank
+    end, name = _end_of_water(tank)
+    most = end - ROOM * case.particles.spacing
+    stroke = max(paddle.stroke, paddle.foremost - paddle.backmost)
+    if stroke < tank.length and paddle.foremost <= most:
+        return
+    key = "file" if maker.type == "file" else "stroke" if maker.stroke else "height"
+    periodic = maker.period > 0.0 and key != "file"
+    period = f" with wavemaker.period = {maker.period:g} s" if periodic else ""
+    hint = "; are its displacements in m, and not in cm or mm?" if key == "file" else ""
+    raise CaseError(
+        f"wavemaker.{key} = {shown(getattr(maker, key))}{period}: moves the piston by "
+        f"{stroke:.4g} m, up to x = {paddle.foremost:.4g} m; the stroke must be < tank.length = "
+        f"{tank.length:g} m, and end at x <= {most:.4g} m, {ROOM} spacings before the {name}{hint}"
+    )
+
+
+def _end_of_water(tank):
+    """x of the shore of the still water, or of the end wall [m], and which of the two it is."""
+    bed = np.array(tank.bed)
+    dry = np.flatnonzero(bed[:, 1] >= tank.depth)
+    if len(dry) == 0:
+        return tank.length, "end wall"
+    (x0, z0), (x1, z1) = bed[dry[0] - 1], bed[dry[0]]
+    return float(x0 + (tank.depth - z0) / (z1 - z0) * (x1 - x0)), "shore"
 
 
 def _leave_room(key, value, x, reach):

@@ -5,10 +5,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mpslab import balance, breaking, gates, geometry, obstacles, waves
+from mpslab import balance, breaking, gates, geometry, memory, obstacles, waves
 from mpslab import bed as beds
-from mpslab.cases.checks import warnings
-from mpslab.cases.complete import initial_speed
+from mpslab.cases.doubts import warnings
+from mpslab.cases.sizes import sizes
+from mpslab.census import census
+from mpslab.output import PROBE_QUANTITIES, STEP_COLUMNS
 from mpslab.particles import KIND_NAMES
 from mpslab.piston import make_paddle
 from mpslab.step import slabs_of, solver_of
@@ -17,6 +19,12 @@ from mpslab.step import slabs_of, solver_of
 SECONDS_PER_PARTICLE_STEP = {2: 2.4e-6, 3: 4.8e-6}
 BYTES_PER_PARTICLE = {2: 900, 3: 2200}
 BYTES_OF_PROGRAM = 120e6
+BYTES_PER_ENTRY = 40  # of a table's row, in memory
+# Of a particle in a frame on the disk, packed: its place (""), and each field that is not near to
+# the same for all.
+BYTES_PER_POINT = {"": 11.0, "velocity": 10.0, "pressure": 3.5, "number_density": 3.5}
+BYTES_PER_NUMBER = 20.0  # of an entry of a table on the disk
+LEAST_STROKE = 0.1  # spacings
 REGULAR = ("linear", "second_order", "cnoidal")
 
 
@@ -38,43 +46,48 @@ class Preflight:
 
 
 def preflight(case):
-    """Work out the findings for a case; runs no step.
+    """Work out the findings for a case, from numbers alone: lays out nothing and runs no step.
 
     Raises
     ------
     ValueError
-        If the wavemaker cannot make the wave, or there is no water.
+        If the wavemaker cannot make the wave, or the run is larger than any can be.
     """
+    size = sizes(case)
     paddle = make_paddle(case)
-    particles = geometry.build_particles(case, paddle.backmost if paddle else 0.0)
-    report = Preflight(warnings=list(warnings(case)))
-    report.sections["Particles"] = _particles(case, particles)
-    report.sections["Cost (one core, rough)"] = _cost(case, len(particles))
+    report = Preflight(warnings=list(warnings(case, paddle)))
+    count = census(case, paddle.backmost if paddle else 0.0)
+    report.sections["Particles"] = _particles(case, count)
+    report.sections["Cost (one core, rough)"] = _cost(case, count.sum(), size, report.warnings)
+    report.sections["Results (rough)"] = _results(case, count.sum(), size)
+    if paddle:
+        report.warnings += [*paddle.doubts, *_hardly_moves(case, paddle)]
     if paddle and paddle.stroke > 0.0:
         report.sections["Wavemaker"] = _wavemaker(case, paddle)
-        height = paddle.height or case.wavemaker.height
-        if height > 0.0:
+        if paddle.height > 0.0:
             describe = _regular_wave if case.wavemaker.type in REGULAR else _solitary_wave
-            report.sections["Wave"] = describe(case, height, report.warnings)
+            report.sections["Wave"] = describe(case, paddle.height, report.warnings)
     return report
 
 
 def check_ranks(case, ranks):
     """Raise ValueError if a case cannot be shared out among so many ranks."""
     solver_of(case, ranks)
-    slabs = slabs_of(case, make_paddle(case))
-    balance.cut(case.parallel.balance, np.ones(slabs.count), ranks)
+    if ranks > 1:
+        slabs = slabs_of(case, make_paddle(case))
+        # Of slabs that are alike, more than there are ranks change nothing.
+        balance.cut(case.parallel.balance, np.ones(min(slabs.count, ranks + 1)), ranks)
 
 
-def _particles(case, particles):
-    counts = np.bincount(particles.kind, minlength=len(KIND_NAMES))
+def _particles(case, count):
+    counts = np.round(count).astype(int)
     kinds = ", ".join(f"{n:,} {name}" for n, name in zip(counts, KIND_NAMES, strict=True) if n)
     spacing = case.particles.spacing
     size = f"{geometry.effective_length(case):.4g} m long"
     if case.tank.width > 0.0:
         size += f", {geometry.rows_across(case) * spacing:.4g} m wide"
     return [
-        ("particles", f"{len(particles):,} ({kinds})"),
+        ("particles", f"{counts.sum():,} ({kinds})"),
         ("spacing", f"{spacing * 1e3:g} mm, {case.tank.depth / spacing:.3g} over the depth"),
         ("tank in whole spacings", size),
         *_obstacles(case),
@@ -106,26 +119,51 @@ def _face(place, axis):
     return "bed" if axis == "z" else "wall"
 
 
-def _cost(case, n):
-    dt = _expected_dt(case)
-    steps = math.ceil(case.time.end / dt)
-    seconds = steps * n * SECONDS_PER_PARTICLE_STEP[case.dim]
-    memory = (BYTES_OF_PROGRAM + n * BYTES_PER_PARTICLE[case.dim]) / 1e6
+def _cost(case, n, size, notes):
+    passes = size.steps + case.scheme.settling
+    seconds = passes * n * SECONDS_PER_PARTICLE_STEP[case.dim]
+    needed = BYTES_OF_PROGRAM + n * BYTES_PER_PARTICLE[case.dim]
+    needed += BYTES_PER_ENTRY * sum(_entries(case, size).values())
+    there = memory.physical()
+    if there and needed > there:
+        notes.append(
+            f"the run needs about {needed / 1e9:,.0f} GB of memory, and this machine has "
+            f"{there / 1e9:,.0f} GB"
+        )
     return [
-        ("expected time step", f"{dt:.2g} s"),
-        ("expected steps", f"{steps:,} to t = {case.time.end:g} s"),
+        ("expected time step", f"{size.step:.2g} s"),
+        ("limit of the time step", size.limit),
+        ("expected steps", f"{size.steps:,} to t = {case.time.end:g} s"),
         ("expected run time", _duration(seconds)),
-        ("expected memory", f"{memory:,.0f} MB"),
+        ("expected memory", f"{needed / 1e6:,.0f} MB"),
     ]
 
 
-def _expected_dt(case):
-    """Courant limit at the speed of water that fell from the highest water to the lowest bed."""
-    top = max([box.end[2] for box in case.water], default=case.tank.depth)
-    speed = max(math.sqrt(case.fluid.gravity * top), initial_speed(case))
-    if speed == 0.0:
-        return case.time.maximum
-    return min(case.time.maximum, case.time.courant * case.particles.spacing / speed)
+def _entries(case, size):
+    """Entries of the tables of a run, by name."""
+    return {
+        "steps": size.steps * len(STEP_COLUMNS),
+        "gauges": size.readings * (1 + len(case.gauge)),
+        "probes": size.readings * (1 + len(PROBE_QUANTITIES) * len(case.probe)),
+    }
+
+
+def _results(case, n, size):
+    """Number and size of what the run writes."""
+    fields = ("", *case.output.fields)
+    frame = n * sum(BYTES_PER_POINT.get(name, 0.1) for name in fields)
+    tables = BYTES_PER_NUMBER * sum(_entries(case, size).values())
+    return [
+        ("frames", f"{size.frames:,} of {_bytes(frame)}, {_bytes(size.frames * frame)}"),
+        ("tables", f"{size.steps:,} rows of steps, {size.readings:,} of gauges, {_bytes(tables)}"),
+    ]
+
+
+def _bytes(number):
+    for unit, size in (("GB", 1e9), ("MB", 1e6)):
+        if number >= size:
+            return f"{number / size:,.1f} {unit}"
+    return f"{number / 1e3:.0f} kB"
 
 
 def _duration(seconds):
@@ -134,11 +172,20 @@ def _duration(seconds):
     return f"{seconds / 60:.0f} min" if seconds < 7200.0 else f"{seconds / 3600:.1f} h"
 
 
+def _hardly_moves(case, paddle):
+    if case.wavemaker.type != "still" and paddle.stroke < LEAST_STROKE * case.particles.spacing:
+        yield (
+            f"the piston moves by {paddle.stroke:.2g} m only until time.end = {case.time.end:g} s, "
+            "less than a tenth of particles.spacing"
+        )
+
+
 def _wavemaker(case, paddle):
     return [
         ("type", case.wavemaker.type),
         ("stroke", f"{paddle.stroke * 1e3:.3g} mm"),
         ("theory", paddle.note),
+        *paddle.facts,
     ]
 
 
@@ -174,10 +221,16 @@ def _beach(case, height, notes):
     lines = [("surf similarity", f"{xi:.3g} on the slope of {slope:.3g}: {kind}")]
     if kind == "surging":
         return lines
+    steep = breaking.GODA_STEEPEST
+    outside = "" if slope <= steep * (1.0 + 1e-9) else (
+        f"; outside of its range, slopes up to {steep:g}")  # fmt: skip
     at, breaker = breaking.breaking_point(deep_height, period, slope, gravity)
     runup = breaking.hunt_runup(deep_height, period, slope, gravity)
     lines.append(
-        ("breaking point (Goda 2010)", f"depth {at * 1e3:.3g} mm, height {breaker * 1e3:.3g} mm")
+        (
+            "breaking point (Goda 2010)",
+            f"depth {at * 1e3:.3g} mm, height {breaker * 1e3:.3g} mm{outside}",
+        )
     )
     lines.append(("run-up (Hunt)", f"{runup * 1e3:.3g} mm above still water"))
     top = max(z for _, z in case.tank.bed)

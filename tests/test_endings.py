@@ -61,7 +61,7 @@ def test_until_before_the_time_reached_is_refused_at_the_command_line(folder, ca
     before = {p: p.read_bytes() for p in folder.iterdir() if p.is_file()}
     assert tank.main(["--resume", str(folder), "--until", "0.003"]) == 2
     error = capsys.readouterr().err
-    assert "--until = 0.003 s: must be >= 0.005" in error and "time.end = 0.01 s" in error
+    assert "--until = 0.003 s: must be > 0.005" in error and "time.end = 0.01 s" in error
     assert {p: p.read_bytes() for p in folder.iterdir() if p.is_file()} == before
 
 

@@ -169,3 +169,34 @@ def test_single_particle_gives_its_own_values():
     position, velocity = np.zeros((1, 3)), np.array([[1.0, 2.0, 3.0]])
     found = probe(position, velocity, np.array([5.0]), np.array([FLUID]), D0, (D0, 0, 0))
     np.testing.assert_allclose(found, [5.0, 1.0, 2.0, 3.0])
+
+
+@pytest.mark.parametrize("ny", [0, 8])
+@pytest.mark.parametrize("above", [0.55, 1.0, 1.5, 2.5, 9.0])
+def test_probe_in_the_air_above_the_water_is_nan(ny, above):
+    position, velocity, pressure, kind = disordered(ny)
+    position = position.round(12)
+    point = (0.3 * D0, 4.2 * D0 if ny else 0.0, TOP + (above + 0.1) * D0)
+    assert np.isnan(probe(position, velocity, pressure, kind, D0, point)).all()
+
+
+@pytest.mark.parametrize("place", [0.0, 0.25, 0.5])
+def test_probe_on_the_surface_of_still_water_reads_next_to_nothing(place):
+    position = still_water()
+    pressure = 9810 * (TOP - position[:, 2])
+    kind = np.zeros(len(position), np.int8)
+    found = probe(position, 0 * position, pressure, kind, D0, (place * D0, 0.0, TOP))
+    np.testing.assert_allclose(found, 0.0, atol=1e-6)
+
+
+@pytest.mark.parametrize("above", [1.0, 1.5, 3.0])
+def test_probe_on_the_wall_above_the_water_reads_the_dry_wall(above):
+    water, wall = lattice(40, 0, 20), lattice(1, 0, 60, x0=-1)
+    position = np.concatenate([water, wall])
+    kind = np.repeat([FLUID, WALL], [len(water), len(wall)])
+    pressure = np.maximum(9810 * (TOP - position[:, 2]), 0.0)
+    for off in (-0.5, 0.0, 0.5):  # the wall as it is laid, from where the case has it
+        point = (off * D0, 0.0, TOP + above * D0)
+        found = probe(position, 0 * position, pressure, kind, D0, point)
+        assert found[0] == 0.0
+        assert np.isnan(found[1:]).all()

@@ -130,7 +130,7 @@ def spoil_speed(particles):
 
 
 def spoil_place(particles):
-    particles.position[np.flatnonzero(particles.fluid)[:3], 0] = -0.1
+    particles.position[np.flatnonzero(particles.fluid)[:6], 0] = -0.1
 
 
 def test_not_a_number_stops_the_run_with_step_time_and_place(tmp_path):
@@ -140,9 +140,9 @@ def test_not_a_number_stops_the_run_with_step_time_and_place(tmp_path):
 
 def test_lost_particles_are_recorded_and_stop_the_run(tmp_path):
     reason = failing(tmp_path, spoil_place)
-    assert "3 of" in reason and "lost" in reason and "step 4" in reason
+    assert "6 of" in reason and "lost" in reason and "step 4" in reason
     lost = rows_without_seconds(tmp_path / "run/lost.csv")
-    assert [row["reason"] for row in lost] == ["behind the wavemaker"] * 3
+    assert [row["reason"] for row in lost] == ["behind the wall at x = 0"] * 6
 
 
 def test_pressure_that_does_not_converge_stops_the_run(tmp_path):

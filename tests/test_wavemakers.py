@@ -15,7 +15,8 @@ END = 3.0
 
 
 def settings(**given):
-    blank = {"type": "", "height": 0.0, "period": 0.0, "stroke": 0.0, "start": 0.0, "file": ""}
+    blank = {"type": "", "height": 0.0, "period": 0.0, "stroke": 0.0, "start": 0.0, "file": "",
+             "offset": 0.0, "smoothing": 0.0}  # fmt: skip
     return SimpleNamespace(**{**blank, **given})
 
 

@@ -8,19 +8,22 @@ from mpslab.cases.recipes import RECIPES
 from mpslab.keys import CaseError, shown
 from mpslab.parameters import LISTS
 
+# A number as Python takes it, by itself: no part of a word or of another number.
+NUMBER = re.compile(r"(?<![\w.+-])[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![\w.])")
+
 
 def parse_set(text: str) -> tuple:
     """Key and value of "key=value".
 
-    The value is in TOML, where words may stand without quotes: 0.002, true, hl, [shifting, ds].
-    Raises CaseError if it is neither.
+    The value is in TOML, where words may stand without quotes, and numbers as Python has them:
+    0.002, .002, 5., true, hl, [shifting, ds]. Raises CaseError if it is none of these.
     """
     name, _, value = (part.strip() for part in text.partition("="))
     if not name or not value:
         raise CaseError(f"{shown(text)}: must be key=value, such as particles.spacing=0.002")
-    for candidate in (value, _quote_words(value)):
+    for form in (str, _full_numbers, _quote_words):
         try:
-            return name, _only_value(candidate)
+            return name, _only_value(form(value))
         except (ValueError, RecursionError):
             continue
     if value[0] in "[{\"'":
@@ -49,6 +52,17 @@ def _only_value(text):
     if list(found) != ["value"]:
         raise ValueError
     return found["value"]
+
+
+def _full_numbers(text):
+    """Numbers with a digit on either side of the point and no zeros ahead of it: -.5, 5., 007."""
+    if not text.startswith("[") and not NUMBER.fullmatch(text):
+        return text
+    return NUMBER.sub(lambda number: repr(_read_number(number[0])), text)
+
+
+def _read_number(text):
+    return int(text) if text.lstrip("+-").isdecimal() else float(text)
 
 
 def _quote_words(text):

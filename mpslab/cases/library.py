@@ -5,9 +5,10 @@ from pathlib import Path
 
 from mpslab.cases import changes, reader
 from mpslab.keys import CaseError, did_you_mean, shown
-from mpslab.parameters import Case
+from mpslab.parameters import NAME, Case
 
 FOLDER = Path(__file__).parent
+MOST_BYTES = 1_000_000  # of a case file
 
 
 def load_case(name_or_path, overrides=None) -> Case:
@@ -34,7 +35,7 @@ def load_case(name_or_path, overrides=None) -> Case:
     path = _find(name_or_path)
     tables = reader.parse(_read(path), str(path))
     tables = reader.with_absolute_file(tables, path.parent)
-    return reader.from_tables(changes.apply(tables, overrides or {}), name=path.stem)
+    return reader.from_tables(changes.apply(tables, overrides or {}), name=_name_of(path))
 
 
 def names() -> tuple[str, ...]:
@@ -47,6 +48,12 @@ def text(name: str) -> str:
     if name not in names():
         raise _unknown(name)
     return _read(FOLDER / f"{name}.toml")
+
+
+def _name_of(path):
+    """Name of a case whose file gives none: that of the file, without what a name must not hold."""
+    good = "".join(c if c.isprintable() and c not in NAME["forbidden"] else " " for c in path.stem)
+    return " ".join(good.split())[: NAME["longest"]].strip() or "case"
 
 
 def _find(name_or_path):
@@ -71,9 +78,15 @@ def _unknown(name):
 
 def _read(path):
     try:
+        if path.stat().st_size > MOST_BYTES:
+            raise CaseError(
+                f"case = {shown(str(path))}: must be a file of at most {MOST_BYTES / 1e6:g} MB"
+            )
         return path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
         raise CaseError(f"case = {shown(str(path))}: must be text in UTF-8") from None
+    except CaseError:
+        raise
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
         raise CaseError(f"case = {shown(str(path))}: must be a readable file ({reason})") from None

@@ -30,9 +30,9 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
         f" L/h = {wave.length / depth:.1f} (above 8), m = {wave.m:.5f},"
         f" H L^2/h^3 = {waves.ursell(wave.height, wave.length, depth):.1f}"
     )
+    samples = math.ceil(paddle.SAMPLES * _sharpness(wave))
     times, whole = (
-        paddle.sample_times(t, wave.period / _sharpness(wave))
-        for t in (end, wavemaker.start + wave.period)
+        paddle.sample_times(t, wave.period, wavemaker.start, samples) for t in (end, math.inf)
     )
     return paddle.from_motion(motion, times, wave.height, note, whole)
 

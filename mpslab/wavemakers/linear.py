@@ -1,5 +1,7 @@
 """First-order piston for regular waves (Biesel & Suquet 1951)."""
 
+from math import inf
+
 import numpy as np
 
 from mpslab import breaking, paddle
@@ -21,7 +23,7 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
         return paddle.soft_start(t, wavemaker.start) * travel
 
     times, whole = (
-        paddle.sample_times(t, wavemaker.period) for t in (end, wavemaker.start + wavemaker.period)
+        paddle.sample_times(t, wavemaker.period, wavemaker.start) for t in (end, inf)
     )
     return paddle.from_motion(motion, times, wave.height, _note(wave), whole)
 

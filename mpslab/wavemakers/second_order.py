@@ -1,6 +1,6 @@
 """Second-order piston for regular waves (Madsen 1971), which makes no free second harmonic."""
 
-from math import acos, sqrt, tanh
+from math import acos, inf, sqrt, tanh
 
 import numpy as np
 
@@ -33,7 +33,7 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
         f" {breaking.MADSEN_URSELL_LIMIT:.1f}; second harmonic {1e3 * second:.2f} mm"
     )
     times, whole = (
-        paddle.sample_times(t, wavemaker.period) for t in (end, wavemaker.start + wavemaker.period)
+        paddle.sample_times(t, wavemaker.period, wavemaker.start) for t in (end, inf)
     )
     return paddle.from_motion(motion, times, wave.height, note, whole)
 

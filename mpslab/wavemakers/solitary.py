@@ -40,9 +40,8 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
         f"solitary wave (Goring 1978): H/h = {ratio:.3f} (below 0.78),"
         f" stroke {2e3 * amplitude:.1f} mm in {2.0 * delay / rate:.2f} s"
     )
-    times, whole = (
-        paddle.sample_times(t, 1.0 / rate) for t in (end, max(fade, 2.0 * delay / rate))
-    )
+    # It only ever goes forward, so its extremes are its ends.
+    times, whole = (np.array([0.0, t]) for t in (end, max(fade, 2.0 * delay / rate)))
     return paddle.from_motion(motion, times, height, note, whole)
 
 
