@@ -88,7 +88,7 @@ def _particles(case, count):
         size += f", {geometry.rows_across(case) * spacing:.4g} m wide"
     return [
         ("particles", f"{counts.sum():,} ({kinds})"),
-        ("spacing", f"{spacing * 1e3:g} mm, {case.tank.depth / spacing:.3g} over the depth"),
+        ("spacing", f"{spacing * 1e3:g} mm, {case.tank.deepest / spacing:.3g} over the depth"),
         ("tank in whole spacings", size),
         *_obstacles(case),
         *_gates(case),
@@ -190,7 +190,7 @@ def _wavemaker(case, paddle):
 
 
 def _regular_wave(case, height, notes):
-    depth, gravity, period = case.tank.depth, case.fluid.gravity, case.wavemaker.period
+    depth, gravity, period = case.tank.paddle_depth, case.fluid.gravity, case.wavemaker.period
     length = waves.wavelength(period, depth, gravity)
     lines = [
         ("height H", f"{height * 1e3:.3g} mm, {height / case.particles.spacing:.3g} spacings"),
@@ -213,7 +213,7 @@ def _beach(case, height, notes):
     slope = waterline_slope(case)
     if slope <= 0.0:
         return []
-    depth, gravity, period = case.tank.depth, case.fluid.gravity, case.wavemaker.period
+    depth, gravity, period = case.tank.paddle_depth, case.fluid.gravity, case.wavemaker.period
     deep_height = height / waves.shoaling_coefficient(period, depth, gravity)
     deep_length = waves.deep_wavelength(period, gravity)
     xi = breaking.surf_similarity(slope, deep_height, deep_length)
@@ -234,9 +234,10 @@ def _beach(case, height, notes):
     )
     lines.append(("run-up (Hunt)", f"{runup * 1e3:.3g} mm above still water"))
     top = max(z for _, z in case.tank.bed)
-    if top < depth + runup:
+    highest = case.tank.depth + runup
+    if top < highest:
         notes.append(
-            f"run-up of {depth + runup:.4g} m would reach over the beach, whose top is at {top:g} m"
+            f"run-up of {highest:.4g} m would reach over the beach, whose top is at {top:g} m"
         )
     if at < 5.0 * case.particles.spacing:
         notes.append(
@@ -247,7 +248,7 @@ def _beach(case, height, notes):
 
 
 def _solitary_wave(case, height, notes):
-    depth, gravity = case.tank.depth, case.fluid.gravity
+    depth, gravity = case.tank.paddle_depth, case.fluid.gravity
     celerity = waves.solitary_celerity(height, depth, gravity)
     lines = [
         ("height H", f"{height * 1e3:.3g} mm, {height / case.particles.spacing:.3g} spacings"),

@@ -7,6 +7,9 @@ import numpy as np
 from mpslab.kernels import density
 from mpslab.stencil import lattice_offsets
 
+# In the second layer the neighbours are as lopsided as this, or with larger radii more so: by as
+# much more in the surface, too, so that the limits below move along [spacings].
+SECOND_LAYER = 0.02
 LOPSIDED = 0.2  # spacings
 FEW = 4
 # Grade 0 to 1 of "graded": over this range of lopsidedness [spacings], or of n/n0 in spray.
@@ -27,7 +30,7 @@ def mark_surface(particles, neighbors, stencil, threshold, unknown):
     few &= unknown
     rows = np.flatnonzero(few)
     count, lopsided = _imbalance(particles, neighbors, stencil, rows)
-    inside = (count > FEW) & (lopsided < LOPSIDED * stencil.spacing)
+    inside = (count > FEW) & (lopsided < LOPSIDED)
     few[rows[inside]] = False
     particles.surface[:] = few
 
@@ -41,7 +44,7 @@ def grade_surface(particles, neighbors, stencil):
     rows = np.flatnonzero(particles.fluid)
     _, lopsided = _imbalance(particles, neighbors, stencil, rows)
     share = particles.number_density[rows] / stencil.n0
-    side = _between(lopsided / stencil.spacing, *GRADE_LOPSIDED)
+    side = _between(lopsided, *GRADE_LOPSIDED)
     t = np.maximum(side, _between(share, *GRADE_SPRAY))
     graded = np.zeros(len(particles))
     graded[rows] = t * t * (3.0 - 2.0 * t)
@@ -83,9 +86,14 @@ def _lattice_sum(stencil, pair_terms):
 
 
 def _imbalance(particles, neighbors, stencil, rows):
+    """Number of neighbours of rows, and how lopsided they are [spacings], (m,) each.
+
+    What the second layer has more of it than at a radius of 2.1 is taken off.
+    """
     count, lopsided = np.empty(len(rows), np.int32), np.empty(len(rows))
     density.imbalance(
         particles.position, neighbors.indptr, neighbors.indices, stencil,
         rows.astype(np.int32), count, lopsided,
     )  # fmt: skip
-    return count, lopsided
+    more = max(stencil.lopsided / stencil.spacing - SECOND_LAYER, 0.0)
+    return count, lopsided / stencil.spacing - more

@@ -103,10 +103,10 @@ def closest(position):
     return cKDTree(position).query(position, k=2)[0][:, 1].min()
 
 
-def number_density_over_n0(case, particles):
-    """n/n0 of all particles of a case at radius 2.1, (n,)."""
+def number_density_over_n0(case, particles, radius=2.1):
+    """n/n0 of all particles of a case at a radius [spacings], (n,)."""
     spacing, width = case.particles.spacing, geometry.period(case)
-    stencil = make_stencil(case.dim, spacing, 2.1, width)
+    stencil = make_stencil(case.dim, spacing, radius, width)
     found = neighbors_of(particles.position, stencil.radius, width)
     n = np.empty(len(particles))
     density.number_density(particles.position, found.indptr, found.indices, stencil, n)

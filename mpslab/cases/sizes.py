@@ -57,7 +57,8 @@ def sizes(case: Case) -> Sizes:
 def _step(case):
     """Time step expected [s], and the name of its limit."""
     top = max([box.end[2] for box in case.water], default=case.tank.depth)
-    fall = math.sqrt(case.fluid.gravity) * math.sqrt(top)
+    lowest = min(z for _, z in case.tank.bed)
+    fall = math.sqrt(case.fluid.gravity) * math.sqrt(top - lowest)
     speed = max([fall, initial_speed(case), *(gate.speed for gate in case.gate)])
     found = timestep.limits(case, math.inf, speed)
     name = min(found, key=found.get)
