@@ -17,7 +17,7 @@ from mpslab import checkpoint, communicator, launch
 from mpslab.stopwatch import PHASES
 
 FILES = ("checkpoint.h5", "gauges.csv", "probes.csv", "lost.csv")
-END = ["--until", "0.015"]
+END = ["--until", "0.015", "--no-pictures"]
 
 
 def finished(*arguments):
@@ -99,7 +99,7 @@ def test_mpiexec_starts_the_same_run(alone, tmp_path):
 def test_a_checkpoint_goes_on_with_any_number_of_ranks(alone, tmp_path):
     folder = str(tmp_path / "run")
     finished(*SMALL, "--until", "0.004", "--out", folder, "--ranks", "3")
-    finished("--resume", folder, "--until", "0.009", "--ranks", "2")
+    finished("--resume", folder, "--until", "0.009", "--ranks", "2", "--no-pictures")
     finished("--resume", folder, *END)
     assert table(tmp_path / "run") == table(alone)
     steps = [[row["step"] for row in table(f, "phases")] for f in (tmp_path / "run", alone)]
@@ -294,16 +294,17 @@ def test_not_a_number_on_one_rank_is_a_failure_of_the_run(alone, tmp_path):
 
 
 COLUMN = ["dam_break", "--set", "tank.width=0", "--set", "particles.spacing=0.02",
-          "--set", "parallel.rebalance_every=5"]  # fmt: skip
+          "--set", "parallel.rebalance_every=5", "--set", "scheme.settling=20"]  # fmt: skip
 
 
 def test_cuts_follow_the_water_and_ranks_without_water_do_no_harm(tmp_path):
     for name, more in (
-        ("alone", []),
+        ("alone", ["--no-pictures"]),
         ("optimal", ["--ranks", "3"]),
-        ("static", ["--ranks", "4", "--set", "parallel.balance=static"]),
+        ("static", ["--ranks", "4", "--set", "parallel.balance=static", "--no-pictures"]),
     ):
         finished(*COLUMN, "--until", "0.12", "--out", str(tmp_path / name), *more)
+    assert (tmp_path / "optimal/pictures/tank.png").exists()
     rows = table(tmp_path / "optimal", "decomposition")
     assert any(float(r["imbalance after"]) < float(r["imbalance before"]) for r in rows)
     assert any(int(row["migrated"]) for row in rows)
