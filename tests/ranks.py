@@ -38,6 +38,11 @@ def alone(program, *arguments):
     return json.loads(json.dumps(globals()[program](*arguments)))
 
 
+def each(calls):
+    """Outputs of several functions below, called one after the other: one start for all."""
+    return [globals()[program](*arguments) for program, *arguments in calls]
+
+
 def digest(particles):
     """The bytes of all arrays, each as a short text."""
     return {
