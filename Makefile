@@ -9,7 +9,7 @@ SOURCES := $(shell find mpslab -name '*.pyx' -o -name '*.pxd') setup.py pyprojec
 help:
 	@echo "make tank   build mpslab and run the plunging breaker; pictures land in runs/"
 	@echo "make test   build mpslab and run its tests"
-	@echo "make test-checked   the unit tests again, every array index in the kernels checked"
+	@echo "make test-checked   the tests of the kernels again, every array index in them checked"
 	@echo "make validation     the quick validation suite; its report lands in runs/validation/quick"
 	@echo "make bench  time steps on 1, 2 and 4 ranks; SPACING=0.002 for the paper's resolution"
 	@echo "make pictures   run the tank of docs and draw its pictures anew"
@@ -22,7 +22,8 @@ tank: .venv/built
 test: .venv/tested lint
 	$(BIN)/python -m pytest
 
-# The files that lead into every function of the kernels, each on arrays of some hundred particles.
+# These lead into every function of the kernels, most on some hundred particles.  What starts
+# processes of its own, as runs from the command line do, has the usual kernels there.
 CHECKED := $(patsubst %,tests/test_%.py,deflation determinism friction gauges gradients laplacians \
   neighbors pressure solvers sources stabilisers step surface viscosity walls)
 build-checked: build/checked/built
@@ -58,9 +59,10 @@ clean:
 	$(BIN)/python -m pip install -q -e .
 	touch $@
 
-.venv/tested: .venv/built
+# Not after .venv/built: each install compiles all kernels.
+.venv/tested: .venv/bin/python $(SOURCES)
 	$(BIN)/python -m pip install -q -e '.[test]'
-	touch $@
+	touch .venv/built $@
 
 .venv/benched: .venv/built
 	$(BIN)/python -m pip install -q -e '.[test,bench]'
