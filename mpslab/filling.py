@@ -139,9 +139,9 @@ def lid(case):
     from scipy.spatial import cKDTree
 
     spacing = case.particles.spacing
-    boxes = [_laid(case, w.start, w.end) for w in case.water if w.shape == "box"]
+    boxes = [laid(case, w.start, w.end) for w in case.water if w.shape == "box"]
     if not case.water:
-        boxes = [_laid(case, *filled(case))]
+        boxes = [laid(case, *filled(case))]
     sites = np.zeros((0, 3))
     for box in boxes:
         new = _around(case, *box)
@@ -154,7 +154,7 @@ def lid(case):
     return sites[dry & ~obstacles.holds(case, sites)]
 
 
-def _laid(case, start, end):
+def laid(case, start, end):
     """Corners of a box of water as it is laid, in whole spacings along x and y: (3,) [m] each."""
     spacing = case.particles.spacing
     low, high = np.array(start), np.array(end)
@@ -168,8 +168,11 @@ def _around(case, low, high):
     length, width = round(case.tank.length / spacing), max(round(case.tank.width / spacing), 1)
     first = max(round(low[0] / spacing) - layers, 0)
     last = min(round(high[0] / spacing) + layers, length)
+    edge = width * spacing if case.dim == 3 else 0.0
     bottom = max(low[2], beds.lowest(case.tank.bed, first * spacing, last * spacing))
     down = int(np.ceil((high[2] - bottom) / spacing)) + layers
+    if np.all(low <= [0.0, 0.0, bottom]) and np.all(high[:2] >= [length * spacing, edge]):
+        down = 0  # wall to wall and down to the bed: there is air above it only
     x = (np.arange(first, last) + 0.5) * spacing
     y = (np.arange(width) + 0.5) * spacing if case.dim == 3 else np.zeros(1)
     z = high[2] + (np.arange(-down, layers) + 0.5) * spacing

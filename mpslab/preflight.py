@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mpslab import balance, breaking, gates, geometry, memory, obstacles, waves
+from mpslab import balance, breaking, filling, gates, geometry, memory, obstacles, waves
 from mpslab import bed as beds
 from mpslab.cases.doubts import warnings
 from mpslab.cases.sizes import sizes
@@ -90,9 +90,21 @@ def _particles(case, count):
         ("particles", f"{counts.sum():,} ({kinds})"),
         ("spacing", f"{spacing * 1e3:g} mm, {case.tank.deepest / spacing:.3g} over the depth"),
         ("tank in whole spacings", size),
+        *_water(case),
         *_obstacles(case),
         *_gates(case),
     ]
+
+
+def _water(case):
+    """Faces of the boxes of water as they are laid out, where they are no whole spacings."""
+    for i, box in enumerate(case.water):
+        low, high = filling.laid(case, box.start, box.end)
+        axes = [0, 1] if case.dim == 3 else [0]
+        if any(abs(a - b) > 1e-6 * case.particles.spacing for k in axes
+               for a, b in ((low[k], box.start[k]), (high[k], box.end[k]))):  # fmt: skip
+            sides = [f"{'xy'[k]} {low[k]:.4g} m to {high[k]:.4g} m" for k in axes]
+            yield f"water.{i} in whole spacings", ", ".join(sides)
 
 
 def _obstacles(case):

@@ -228,3 +228,10 @@ def test_record_in_millimetres_is_refused_with_a_hint(tmp_path, scale):
 def test_extremes_of_a_motion_take_as_many_samples_whatever_the_end():
     case = cases.load_case("regular_waves", {"time.end": 1e6, "wavemaker.start": 1e5})
     assert make_paddle(case).stroke < make_paddle(cases.load_case("regular_waves")).stroke * 1.01
+
+
+def test_faces_of_water_that_are_no_whole_spacings_are_told():
+    case = cases.load_case("dam_break", {"tank.width": 0.0, "particles.spacing": 0.007})
+    assert "water.0 in whole spacings    x 0 m to 0.602 m" in preflight(case).text()
+    whole = cases.load_case("dam_break", {"tank.width": 0.0, "particles.spacing": 0.01})
+    assert "water.0" not in preflight(whole).text()
