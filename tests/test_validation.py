@@ -1,7 +1,6 @@
 """The validation suite: its cases are complete, its verdicts right, its runs are kept."""
 
 import json
-from dataclasses import replace
 
 import numpy as np
 import pytest

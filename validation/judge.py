@@ -1,4 +1,6 @@
-"""Met, open or missed: the criteria of a case against what it measured, and the misses that are known."""
+"""Met, open or missed: the criteria of a case against what its draws measured, and the misses that
+are known.
+"""
 
 import tomllib
 from pathlib import Path

@@ -41,8 +41,8 @@ def compare(case, suite, outcomes, runs):
     Returns
     -------
     Comparison
-        Of the first draw, with the values of all. With no values, and a note that says why, where a run failed that has to end well, or
-        where the comparison itself did.
+        Of the first draw, with the values of all. With no values, and a note that says why, where
+        a run failed that has to end well, or where the comparison itself did.
     """
     failed = [o for o in outcomes if o.outcome != "finished" and not o.task.plan.may_fail]
     why = [f"Run {o.task.plan.name} {o.outcome}: {o.reason}" for o in failed]

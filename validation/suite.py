@@ -133,7 +133,7 @@ class ValidationCase:
 
     @property
     def compare(self):
-        """The function `compare` of the case, from runs by name to a `Comparison`."""
+        """The function `compare` of the case, from the runs of a draw by name to a `Comparison`."""
         return importlib.import_module(f"validation.{self.name}.compare").compare
 
 
