@@ -104,6 +104,9 @@ def test_headings_are_reached_by_tab(opened):
 def test_table_filters_by_miss_and_by_text(opened):
     opened.evaluate("document.querySelector('input[value=missed]').click()")
     assert len(column(opened, 0)) == 3
+    opened.evaluate("document.querySelector('input[value=open]').click()")
+    assert column(opened, 0) == []
+    opened.evaluate("document.querySelector('input[value=missed]').click()")
     typed = (
         "{const box = document.querySelector('input[type=search]'); box.value = 'JET';"
         "box.dispatchEvent(new Event('input', {bubbles: true}))}"

@@ -34,7 +34,7 @@ def still_water(folder):
 
 
 def missed(metrics):
-    return {name for name, metric in metrics.items() if not metric["passed"]}
+    return {name for name, metric in metrics.items() if metric["verdict"] == "missed"}
 
 
 def scale_gradient(monkeypatch):

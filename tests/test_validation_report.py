@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from results import README, breaker, dispersion, made, metric, save, written
+from results import README, breaker, dispersion, made, metric, save, undecided, written
 
 from validation import browser, report
 
@@ -51,7 +51,7 @@ def test_failed_run_is_a_miss_with_its_reason(page):
 
 def test_value_that_is_missing_is_a_miss_whatever_the_judge_said(tmp_path):
     found = dispersion()
-    found["metrics"] = [metric("k", "Wave number", "", None, 1.0, None) | {"passed": True}]
+    found["metrics"] = [metric("k", "Wave number", "", None, 1.0, None) | {"verdict": "met"}]
     text = text_of(report.render([found], tmp_path))
     assert "0 of 1 criteria met" in text
     assert "Measured no value: see the notes of the case" in text
@@ -61,6 +61,34 @@ def test_without_a_miss_the_page_says_so(tmp_path):
     text = text_of(report.render([dispersion()], tmp_path))
     assert "2 of 2 criteria met None is missed." in text
     assert "Cause" not in text
+
+
+def test_what_is_open_is_neither_met_nor_missed_and_shown_with_its_error(tmp_path):
+    found = dispersion()
+    found["metrics"] = [*found["metrics"], undecided()]
+    page = report.render([found], tmp_path)
+    text = text_of(page)
+    assert "2 of 3 criteria met None is missed. 1 open: within two standard errors" in text
+    assert (
+        "Height lost over five wavelengths Band ≤ 4 % Measured 3.4 ± 0.58 %, mean of 3 seeds "
+        "Scatter 1 from draw to draw: Six seeds gave 1.9 to 4.7."
+    ) in text.partition("All criteria")[0]
+    assert "3.4 ± 0.58 % mean of 3 seeds ○ open" in text
+    assert "2 of 3 met, 1 open" in text
+
+
+def test_a_listed_miss_that_is_open_says_that_it_is_listed(tmp_path):
+    found = dispersion() | {"metrics": [undecided("the beach sends some back")]}
+    text = text_of(report.render([found], tmp_path))
+    assert "Listed as missed. the beach sends some back" in text
+
+
+def test_result_without_verdicts_is_refused(tmp_path, capsys):
+    found = dispersion()
+    del found["metrics"][0]["verdict"]
+    save([found], tmp_path)
+    assert report.main([str(tmp_path)]) == 2
+    assert "is not the result of a case (KeyError('verdict'))" in capsys.readouterr().err
 
 
 def test_pass_and_miss_are_words(page):

@@ -50,6 +50,20 @@ def test_measured_value_shows_on_which_side_of_the_band_it_lies(value, text):
     assert words.measured(metric("m", "", "mm", None, 1.5, value)) == f"{text}\u00a0mm"
 
 
+@pytest.mark.parametrize(
+    ("draws", "error", "text"),
+    [([1.2], 0.0, ""), ([1.2], 0.1, ""), ([1.1, 1.3], 0.1, "mean of 2 seeds"),
+     ([1.2, 1.0], 0.0, "worst of 2 seeds")],
+)  # fmt: skip
+def test_value_of_several_draws_says_what_it_is(draws, error, text):
+    assert words.drawn(metric("m", "", "mm", None, 1.5, 1.2, draws=draws, error=error)) == text
+
+
+def test_standard_error_stands_behind_the_value():
+    found = metric("m", "", "mm", None, 1.5, 1.2, error=0.0577)
+    assert words.measured(found) == "1.2 ± 0.058\u00a0mm"
+
+
 def test_times_are_printed_in_words():
     spans = [words.duration(seconds) for seconds in (4.21, 31.0, 744.0, 11520.0)]
     assert spans == ["4.21\u00a0s", "31\u00a0s", "12.4\u00a0min", "3.2\u00a0h"]

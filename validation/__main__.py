@@ -37,7 +37,7 @@ def _parser():
 def main(arguments=None):
     """Run the command line; returns the exit status.
 
-    0: all criteria met (with --known: just the known ones missed); 1: not; 2: bad input; 130:
+    0: no criterion missed (with --known: just the known ones); 1: some; 2: bad input; 130:
     stopped by Ctrl-C, what has finished is kept.
     """
     options = _parser().parse_args(arguments)
@@ -123,21 +123,24 @@ def run(cases, which, out, work):
 
 
 def _line(found):
-    metrics = found["metrics"]
-    met = sum(metric["passed"] for metric in metrics)
-    return f"{found['title']}: {met} of {len(metrics)} criteria met"
+    return f"{found['title']}: {_tally(found['metrics'])}"
+
+
+def _tally(metrics):
+    verdicts = [metric["verdict"] for metric in metrics]
+    still = f", {verdicts.count(judge.OPEN)} open" if judge.OPEN in verdicts else ""
+    return f"{verdicts.count(judge.MET)} of {len(verdicts)} criteria met{still}"
 
 
 def _verdict(results, against_known):
-    missed = judge.misses(results)
-    for case, metric in missed:
-        cause = f" (known: {metric['known']})" if metric["known"] else ""
-        print(f"Missed: {case}.{metric['id']} = {metric['value']}, allowed "
-              f"{metric['low']} to {metric['high']} {metric['unit']}{cause}")  # fmt: skip
-    count = sum(len(found["metrics"]) for found in results)
-    print(f"{count - len(missed)} of {count} criteria met")
+    for word in (judge.OPEN, judge.MISSED):
+        for case, metric in judge.with_verdict(results, word):
+            cause = f" (known: {metric['known']})" if metric["known"] else ""
+            print(f"{word.title()}: {case}.{metric['id']} = {judge.told(metric)}, allowed "
+                  f"{metric['low']} to {metric['high']} {metric['unit']}{cause}")  # fmt: skip
+    print(_tally([metric for found in results for metric in found["metrics"]]))
     if not against_known:
-        return MISSED if missed else DONE
+        return MISSED if judge.with_verdict(results, judge.MISSED) else DONE
     surprises = judge.unexpected(results)
     print("\n".join(surprises) or "Nothing but the known misses.")
     return MISSED if surprises else DONE

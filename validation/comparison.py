@@ -70,6 +70,8 @@ class Comparison:
     ----------
     measured : dict of str to float
         Values by the names of the criteria; a value that is not finite is a miss.
+    draws : list of dict
+        The same of each draw, this one the first; filled in by the suite.
     figures, tables, convergence, notes : list
         As in the JSON file of a case (see ``validation/README.md``).
     errors : list of dict
@@ -77,6 +79,7 @@ class Comparison:
     """
 
     measured: dict = field(default_factory=dict)
+    draws: list = field(default_factory=list)
     figures: list = field(default_factory=list)
     tables: list = field(default_factory=list)
     convergence: list = field(default_factory=list)

@@ -15,6 +15,7 @@ from markupsafe import Markup
 
 from mpslab.files import replacing
 from validation import browser, figures, words
+from validation.judge import MISSED, OPEN
 
 BAD_INPUT = 2
 INSTALL = "python -m pip install -e '.[validation]'"
@@ -69,7 +70,8 @@ def read(folder):
 def _read(path):
     try:
         result = json.loads(path.read_text(encoding="utf-8"))
-        result["case"], result["metrics"], result["provenance"]["date"]
+        result["case"], result["provenance"]["date"]
+        [metric["verdict"] for metric in result["metrics"]]
     except (ValueError, KeyError, TypeError) as error:
         raise ValueError(f"'{path}': is not the result of a case ({error!r})") from error
     return result
@@ -99,6 +101,7 @@ def render(results, folder):
         "number": words.number,
         "band": words.band,
         "measured": words.measured,
+        "seeds": words.drawn,
         "duration": words.duration,
         "date": words.date,
         "commit": words.commit,
@@ -108,12 +111,13 @@ def render(results, folder):
         "converging": figures.draw_convergence,
         "data_url": figures.data_url,
     }
-    environment.tests["missed"] = missed
+    environment.tests |= {"missed": missed, "undecided": undecided}
     metrics = [metric for result in results for metric in result["metrics"]]
     return environment.get_template("report.html.j2").render(
         results=results,
         total=len(metrics),
         misses=[(r, m) for r in results for m in r["metrics"] if missed(m)],
+        undecided=[(r, m) for r in results for m in r["metrics"] if undecided(m)],
         picture=lambda name: _picture(folder / name),
         origin=_origin(results),
         repeat=_repeat(results[-1]),
@@ -122,7 +126,12 @@ def render(results, folder):
 
 def missed(metric):
     """Whether a metric lies outside its band, or has no value at all."""
-    return metric["value"] is None or not metric["passed"]
+    return metric["value"] is None or metric["verdict"] == MISSED
+
+
+def undecided(metric):
+    """Whether an edge of its band is within two standard errors of a metric."""
+    return metric["value"] is not None and metric["verdict"] == OPEN
 
 
 def failures(result):

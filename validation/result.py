@@ -41,22 +41,34 @@ def compare(case, suite, outcomes, runs):
     Returns
     -------
     Comparison
-        With no values, and a note that says why, where a run failed that has to end well, or
-        where the comparison itself did.
+        Of the first draw, with the values of all. With no values, and a note that says why, where
+        a run failed that has to end well, or where the comparison itself did.
     """
     failed = [o for o in outcomes if o.outcome != "finished" and not o.task.plan.may_fail]
     why = [f"Run {o.task.plan.name} {o.outcome}: {o.reason}" for o in failed]
     if not failed:
         try:
-            pairs = [(o.task.plan, run) for o, run in zip(outcomes, runs, strict=True)]
-            found = case.compare({p.name: run for p, run in pairs if run.steps or not p.may_fail})
-            check(case, suite, found.measured)
-            return found
+            every = [case.compare(draw) for draw in draws_of(outcomes, runs)]
+            for one in every:
+                check(case, suite, one.measured)
+            every[0].draws = [one.measured for one in every]
+            return every[0]
         except Exception:
             traceback.print_exc()
             why = [f"The comparison failed: {traceback.format_exc().splitlines()[-1]}"]
     nothing = {criterion.id: np.nan for criterion in case.criteria_of(suite)}
-    return Comparison(measured=nothing, notes=why)
+    return Comparison(measured=nothing, draws=[nothing], notes=why)
+
+
+def draws_of(outcomes, runs):
+    """Runs by name, a dict for each draw; a run that was not drawn again stands in all of them.
+
+    A run without a step is left out: it may fail.
+    """
+    pairs = [(o.task.plan, run) for o, run in zip(outcomes, runs, strict=True)]
+    count = 1 + max((plan.draw for plan, _ in pairs), default=0)
+    draws = [{plan.first: run for plan, run in pairs if plan.draw in (0, k)} for k in range(count)]
+    return [{name: run for name, run in draw.items() if run.steps} for draw in draws]
 
 
 def make(case, suite, outcomes, known):
@@ -80,7 +92,7 @@ def make(case, suite, outcomes, known):
         "suite": suite,
         "readme": case.readme,
         "runs": told,
-        "metrics": judge(case, suite, found.measured, known),
+        "metrics": judge(case, suite, found.draws, known),
         "figures": figures,
         "tables": [*found.all_tables, *ledger(outcomes, runs)],
         "convergence": found.convergence,

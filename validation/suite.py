@@ -1,8 +1,9 @@
 """The cases on the disk: a folder each, with case.toml, criteria.toml and compare.py."""
 
 import importlib
+import math
 import tomllib
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -28,6 +29,8 @@ class PlannedRun:
     suites : tuple of str
     may_fail : bool
         Whether the case can be compared although this run failed.
+    draw : int
+        0, or the seed by which alone it differs from the run that it is another draw of.
     """
 
     name: str
@@ -35,6 +38,17 @@ class PlannedRun:
     changes: dict
     suites: tuple
     may_fail: bool = False
+    draw: int = 0
+
+    @property
+    def first(self):
+        """Name of the run that this is a draw of, its own where it is the first."""
+        return self.name.removesuffix(f"-seed-{self.draw}") if self.draw else self.name
+
+    def drawn_again(self, seed):
+        """The same run with another seed, named after it."""
+        changes = {**self.changes, "particles.seed": seed}
+        return replace(self, name=f"{self.name}-seed-{seed}", changes=changes, draw=seed)
 
     @cached_property
     def resolved(self):
@@ -54,8 +68,13 @@ class PlannedRun:
 class Criterion:
     """A metric and the band it must lie in; None is no bound.
 
-    A value nearer to an edge of the band than `noise` may fall on either side of it with another
-    seed, or on another machine.
+    Attributes
+    ----------
+    scatter : float
+        Standard deviation of the metric from draw to draw, where it is chaotic: another seed, or
+        the last bit on another machine, is another draw. 0: it must lie in the band in each.
+    scatter_from : str
+        The draws that the scatter was taken from.
     """
 
     id: str
@@ -64,19 +83,19 @@ class Criterion:
     unit: str = ""
     low: float | None = None
     high: float | None = None
-    noise: float = 0.0
+    scatter: float = 0.0
+    scatter_from: str = ""
     suites: tuple = SUITES
 
-    def at_an_edge(self, value):
-        """Whether a value is within the noise of an edge of the band."""
-        edges = [edge for edge in (self.low, self.high) if edge is not None]
-        return any(abs(value - edge) < self.noise for edge in edges)
+    def margin(self, value):
+        """How far inside the band a value lies, negative where it is outside."""
+        above = math.inf if self.low is None else value - self.low
+        below = math.inf if self.high is None else self.high - value
+        return min(above, below)
 
     def met(self, value):
         """Whether a value lies in the band; one that is not a number does not."""
-        above = self.low is None or value >= self.low
-        below = self.high is None or value <= self.high
-        return value == value and above and below
+        return value == value and self.margin(value) >= 0.0
 
 
 @dataclass(frozen=True)
@@ -114,7 +133,7 @@ class ValidationCase:
 
     @property
     def compare(self):
-        """The function `compare` of the case, from runs by name to a `Comparison`."""
+        """The function `compare` of the case, from the runs of a draw by name to a `Comparison`."""
         return importlib.import_module(f"validation.{self.name}.compare").compare
 
 
@@ -139,7 +158,7 @@ def load(name):
         question=about["question"],
         order=about["order"],
         readme=(folder / "README.md").read_text(encoding="utf-8"),
-        runs=tuple(_planned(folder, run) for run in about.get("run", ())),
+        runs=tuple(plan for run in about.get("run", ()) for plan in _planned(folder, run)),
         criteria=tuple(_criterion(*item) for item in criteria.items()),
     )
 
@@ -155,10 +174,12 @@ def load_all():
 
 
 def _planned(folder, run):
+    """A run and its other draws, a list."""
     case = run["case"]
     path = case if case in built_in() else str(folder / case)
     suites = tuple(run.get("suites", SUITES))
-    return PlannedRun(run["name"], path, run.get("set", {}), suites, run.get("may_fail", False))
+    first = PlannedRun(run["name"], path, run.get("set", {}), suites, run.get("may_fail", False))
+    return [first, *map(first.drawn_again, range(1, run.get("seeds", 1)))]
 
 
 def _criterion(name, keys):

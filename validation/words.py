@@ -4,6 +4,7 @@ import math
 from datetime import datetime
 
 DIGITS = 4
+ERROR_DIGITS = 2
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 NARROW_SPACE = "\u202f"
 
@@ -60,14 +61,23 @@ def band(metric):
 
 
 def measured(metric):
-    """The value of a metric, with as many digits as show on which side of the band it lies."""
+    """The value of a metric, with as many digits as show on which side of the band it lies, and
+    its standard error.
+    """
     value, digits = metric["value"], DIGITS
     if value is None:
         return "no value"
     edges = [edge for edge in (metric["low"], metric["high"]) if edge is not None]
     while any(value != edge and number(value, digits) == number(edge, digits) for edge in edges):
         digits += 1
-    return with_unit(number(value, digits), metric["unit"])
+    error = f" ± {number(metric['error'], ERROR_DIGITS)}" if metric["error"] else ""
+    return with_unit(number(value, digits) + error, metric["unit"])
+
+
+def drawn(metric):
+    """What the value of a metric is of several draws; nothing where there is one."""
+    count = len(metric["draws"])
+    return f"{'mean' if metric['error'] else 'worst'} of {count} seeds" if count > 1 else ""
 
 
 def duration(seconds):

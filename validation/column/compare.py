@@ -7,28 +7,24 @@ from validation.comparison import Comparison
 
 
 def compare(runs):
-    """The worst of all runs."""
-    result = Comparison()
+    """Largest rise of the energy, closest pair, and what was lost."""
+    result, run = Comparison(), runs["column"]
+    steps = run.steps
+    total = steps["kinetic_energy [J]"] + steps["potential_energy [J]"]
+    change = 100.0 * np.diff(total) / total[0]
+    time, closest, behind = _order(run)
+    result.measure("rise", change.max())
+    result.measure("closest", closest.min())
+    result.measure("lost", steps["lost"][-1])
     energy = result.figure("Energy of the water", "time [s]", "energy over that at the start")
+    energy.line(run.label, steps["time [s]"], total / total[0])
     pairs = result.figure("Closest pair", "time [s]", "distance [d0]")
-    rows = []
-    for name, run in runs.items():
-        steps = run.steps
-        total = steps["kinetic_energy [J]"] + steps["potential_energy [J]"]
-        change = 100.0 * np.diff(total) / total[0]
-        time, closest, behind = _order(run)
-        energy.line(name, steps["time [s]"], total / total[0])
-        pairs.line(name, time, closest)
-        rows.append(
-            [name, change.max(), change.min(), total[-1] / total[0], closest.min(),
-             behind.max(), steps["lost"][-1]]
-        )  # fmt: skip
-    result.measure("rise", np.max([row[1] for row in rows]))
-    result.measure("closest", np.min([row[4] for row in rows]))
-    result.measure("lost", np.sum([row[6] for row in rows]))
+    pairs.line(run.label, time, closest)
     columns = ["run", "largest rise in a step [%]", "largest fall [%]", "energy left",
                "closest pair [d0]", "deepest centre behind a wall [d0]", "lost"]  # fmt: skip
-    result.table("Energy and order", columns, rows)
+    row = [run.label, change.max(), change.min(), total[-1] / total[0], closest.min(),
+           behind.max(), steps["lost"][-1]]  # fmt: skip
+    result.table("Energy and order", columns, [row])
     return result
 
 

@@ -108,8 +108,7 @@ def _converge(result, boxes):
     result.converge("Rms speed in the box [mm/s]", spacing, [row[3] for row in figures])
     result.note(
         "Rms speed and error of the pressure in the box differ from seed to seed of the first "
-        "displacement by as much as from spacing to spacing (see the table): their orders say "
-        "little."
+        "displacement by as much as from spacing to spacing: their orders say little."
     )
 
 
