@@ -15,9 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import balance, deflation, geometry, load_case, pressure
+from mpslab import balance, deflation, filling, geometry, load_case, pressure
 from mpslab.piston import make_paddle
-from mpslab.rebalance import load
+from mpslab.rebalance import SOLID
 from mpslab.slabs import WIDTH, make_slabs
 
 HERE = Path(__file__).parent
@@ -33,7 +33,7 @@ ITERATIONS = {0.004: 9.4, 0.003: 11.6, 0.002: 10.8, 0.0015: 11.3, 0.001: 13.0, 0
 # slab each, and of a third one with a value a group.
 EXCHANGES, SUMS, DOTS = 1, 2, 3
 # And of a step: rows and refreshed arrays; sums, with what all ranks tell each other as two each.
-STEP_EXCHANGES, STEP_SUMS = 11, 33
+STEP_EXCHANGES, STEP_SUMS = 11, 37
 # Solves for the groups, each with the sum of a value a group: one an iteration, and before the
 # first and after the last.
 STEP_SOLVES = 2
@@ -76,7 +76,10 @@ def make_tank(spacing):
     radius = spacing * max(flat.scheme.effective_radius, flat.scheme.laplacian_radius)
     slabs = make_slabs(*geometry.extent(flat, backmost), radius)
     slab, fluid = slabs.of(particles.position[:, 0]), particles.fluid
-    water = across * np.bincount(slab[fluid], minlength=slabs.count)
+    # Rows across differ in where a column has a particle more.
+    rows = np.concatenate([filling.section(case, row)[:, 0] for row in range(across)])
+    water = np.bincount(slabs.of(rows), minlength=slabs.count)
+    solid = across * np.bincount(slab[~fluid], minlength=slabs.count)
     groups, half = _groups(
         slab[fluid],
         _cell(particles.position[fluid, 2], flat),
@@ -86,8 +89,8 @@ def make_tank(spacing):
     return Tank(
         spacing=spacing,
         water=water,
-        particles=across * np.bincount(slab, minlength=slabs.count),
-        work=across * load("optimal", fluid, slab, slabs.count),
+        particles=water + solid,
+        work=water + SOLID * solid,
         groups=groups,
         half=half,
     )
