@@ -29,6 +29,20 @@ def start(program, ranks, *arguments):
     return json.loads(done.stdout)
 
 
+def alone(program, *arguments):
+    """Output of a function below on one rank, in this process: as `start` would give it.
+
+    Of the kernels of this process, which those of `start` need not be: in a checked build the
+    last bits of a sum may differ.
+    """
+    return json.loads(json.dumps(globals()[program](*arguments)))
+
+
+def each(calls):
+    """Outputs of several functions below, called one after the other: one start for all."""
+    return [globals()[program](*arguments) for program, *arguments in calls]
+
+
 def digest(particles):
     """The bytes of all arrays, each as a short text."""
     return {
@@ -228,7 +242,8 @@ def launcher():
 
 SMALL = ["plunging_breaker", "--set", "tank.width=0", "--set", "scheme.solver=piccg",
          "--set", "parallel.rebalance_every=5", "--set", "output.checkpoint=0.001",
-         "--set", "output.interval=0.002"]  # fmt: skip
+         "--set", "output.interval=0.002", "--set", "scheme.settling=20",
+         "--no-pictures"]  # fmt: skip
 SPOILED = 9e-3  # seconds of physical time after which a run goes wrong
 ROOM = 4096  # bytes that a file may have on a disk that is full
 

@@ -27,6 +27,7 @@ MACHINE = {
 }  # fmt: skip
 COARSE = {name: MACHINE["work"][name] for name in ("factor", "substitution")}
 SPACING = 0.004
+LATTICE = {"particles.spacing": SPACING, "scheme.settling": 0}
 
 
 @pytest.fixture(scope="module")
@@ -39,8 +40,7 @@ def step(tank, ranks):
 
 
 def test_the_tank_has_the_particles_and_the_slabs_of_the_program(tank):
-    lattice = {"particles.spacing": SPACING, "scheme.settling": 0}
-    run = Simulation(load_case("plunging_breaker", lattice))
+    run = Simulation(load_case("plunging_breaker", LATTICE))
     domain, particles = run.domain, run.particles
     count = domain.slabs.count
     assert model.slabs_run_out(tank) == count
@@ -60,7 +60,7 @@ def test_the_tank_has_the_groups_of_a_step(monkeypatch, work):
     monkeypatch.setattr(deflation, "WORK", work)
     monkeypatch.setattr(deflated, "Deflation", keep)
     tank = model.make_tank(SPACING)
-    Simulation(load_case("plunging_breaker", {"particles.spacing": SPACING})).advance()
+    Simulation(load_case("plunging_breaker", LATTICE)).advance()
     (real,) = made
     first = real.system.first
     groups = [len(set(real.group[a:b].tolist())) for a, b in pairwise(first.tolist())]
@@ -111,7 +111,8 @@ def test_every_rank_does_all_the_work_for_the_groups(tank):
 
 def test_messages_are_those_of_a_step(monkeypatch):
     """As far as one rank goes through them: it sends no particles, three times in a step."""
-    run = Simulation(load_case("plunging_breaker", {"particles.spacing": 0.006, "tank.width": 0.0}))
+    small = {**LATTICE, "tank.width": 0.0, "particles.spacing": 0.006}
+    run = Simulation(load_case("plunging_breaker", small))
     sums, told, arrays, rows = [], [], [], []
 
     def count(name, note):

@@ -115,7 +115,7 @@ def test_run_larger_than_any_is_refused(changes, message):
 
 
 def test_frames_and_tables_are_told_with_their_size(tmp_path):
-    changes = {"time.end": 0.05, "output.interval": 0.005}
+    changes = {"time.end": 0.05, "output.interval": 0.005, "scheme.settling": 0}
     case = cases.load_case("hydrostatic", changes)
     lines = findings(case, "Results (rough)")
     Simulation(case, tmp_path / "run").run()

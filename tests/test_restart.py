@@ -19,6 +19,7 @@ CASE = {
     "tank.width": 0.0,
     "particles.spacing": 0.004,
     "wavemaker.type": "file",
+    "scheme.settling": 0,
     "time.end": END,
     "output.interval": 0.05,
     "output.checkpoint": 0.1,

@@ -13,16 +13,23 @@ from mpslab import checkpoint
 BREAKER_2D = {
     "tank.width": 0.0,
     "particles.spacing": 0.005,
+    "scheme.settling": 20,
     "output.interval": 0.02,
     "output.checkpoint": 0.0,
 }
+COARSE = {"particles.spacing": 0.004, "scheme.settling": 0}
 CASES = {
     "piston and slope, 2-D": ("plunging_breaker", BREAKER_2D, 0.12),
-    "periodic, 3-D": ("plunging_breaker", {"particles.spacing": 0.005}, 0.03),
+    "periodic, 3-D": (
+        "plunging_breaker", {"particles.spacing": 0.005, "scheme.settling": 20}, 0.03
+    ),
     "paper's recipe": ("plunging_breaker", BREAKER_2D | {"scheme.recipe": "paper"}, 0.02),
     "side walls, SCG": (
         "dam_break",
-        {"particles.spacing": 0.03, "scheme.solver": "scg", "output.checkpoint": 0.0},
+        {
+            "particles.spacing": 0.03, "scheme.solver": "scg", "scheme.settling": 20,
+            "output.checkpoint": 0.0,
+        },
         0.04,
     ),
 }
@@ -79,7 +86,7 @@ def test_resume_after_a_kill_drops_the_rows_after_the_checkpoint(tmp_path):
 
 
 def test_resolved_case_runs_again_with_the_same_bytes(tmp_path):
-    case = mpslab.load_case("standing_wave", {"particles.spacing": 0.004})
+    case = mpslab.load_case("standing_wave", COARSE)
     mpslab.Simulation(case, tmp_path / "a").run(until=0.02)
     again = mpslab.load_case(tmp_path / "a/case.toml")
     mpslab.Simulation(again, tmp_path / "b").run(until=0.02)
@@ -99,7 +106,7 @@ def test_series_of_a_run_in_memory_are_arrays_with_units_of_si():
 
 
 def test_stop_request_ends_the_run_with_a_checkpoint(tmp_path):
-    case = mpslab.load_case("hydrostatic", {"particles.spacing": 0.004})
+    case = mpslab.load_case("hydrostatic", COARSE)
 
     def stop(simulation):
         simulation.stop_requested = simulation.step == 5
@@ -110,7 +117,7 @@ def test_stop_request_ends_the_run_with_a_checkpoint(tmp_path):
 
 
 def failing(tmp_path, spoil=None, changes=None):
-    case = mpslab.load_case("hydrostatic", {"particles.spacing": 0.004} | (changes or {}))
+    case = mpslab.load_case("hydrostatic", COARSE | (changes or {}))
     simulation = mpslab.Simulation(case, tmp_path / "run")
     for _ in range(3 if spoil else 0):
         simulation.advance()
@@ -159,7 +166,7 @@ def test_time_step_below_its_floor_stops_the_run(tmp_path):
 
 
 def test_resume_sets_a_damaged_frame_file_aside(tmp_path):
-    case = mpslab.load_case("hydrostatic", {"particles.spacing": 0.004})
+    case = mpslab.load_case("hydrostatic", COARSE)
     mpslab.Simulation(case, tmp_path / "run").run(until=0.01)
     (tmp_path / "run/particles.vtkhdf").write_bytes(b"cut off in the middle")
     with pytest.warns(UserWarning, match="set aside"):

@@ -16,7 +16,7 @@ from validation.suite import Criterion, PlannedRun
 from validation.wave_analysis import decay, harmonics
 from validation.work import Outcome, Task, Work, fingerprint
 
-TINY = {"particles.spacing": 0.008, "time.end": 0.02}
+TINY = {"particles.spacing": 0.008, "scheme.settling": 0, "time.end": 0.02}
 
 
 @pytest.mark.parametrize("name", suite.names())
