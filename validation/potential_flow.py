@@ -5,6 +5,7 @@ expanded about the still water level, to an order in the steepness.
 """
 
 import math
+from functools import cache
 
 import numpy as np
 
@@ -12,6 +13,7 @@ ORDER, MODES = 7, 64
 STEPS = 400  # of time, a period
 
 
+@cache
 def standing_wave(amplitude, length, depth, gravity, frequency, periods):
     """A standing wave that starts level with the velocities of linear theory.
 
