@@ -44,13 +44,13 @@ class Tank:
 
     @property
     def paddle_depth(self):
-        """Depth of the still water at the wavemaker [m]."""
-        return self.depth - (self.bed[0][1] if self.bed else 0.0)
+        """Depth of the still water at the wavemaker [m], 0 where it is dry."""
+        return max(self.depth - (self.bed[0][1] if self.bed else 0.0), 0.0)
 
     @property
     def deepest(self):
-        """Largest depth of the still water [m]."""
-        return self.depth - min((z for _, z in self.bed), default=0.0)
+        """Largest depth of the still water [m], 0 where all is dry."""
+        return max(self.depth - min((z for _, z in self.bed), default=0.0), 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -194,7 +194,7 @@ def _check_motion(case):
             0.0 < initial.amplitude < tank.paddle_depth,
             "initial.amplitude",
             initial.amplitude,
-            f"> 0 and < the depth of the water at x = 0, {tank.paddle_depth:g} m",
+            f"> 0 and < tank.depth = {tank.depth:g} m less the bed at x = 0, {tank.bed[0][1]:g} m",
         )
     require(
         initial.rate != 0.0 or initial.type not in ("strain", "rotation"),
