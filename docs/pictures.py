@@ -36,7 +36,7 @@ PICTURES = {
     "tank-paper": ("paper", draw_tank),
     "tank-mps": ("mps", draw_tank),
     "tank": ("standard-3d", draw_tank),
-    "breaker": ("standard-3d", draw_breaker),
+    "breaker": ("standard", draw_breaker),
 }
 
 
