@@ -51,10 +51,14 @@ def section(case, row=0):
 
 def columns(case, start, end):
     """x of the columns of water in a box [m], a list: those that are in no gate."""
-    spacing = case.particles.spacing
-    last = min(end[0], effective_length(case))
-    along = (np.arange(round(start[0] / spacing), round(last / spacing)) + 0.5) * spacing
+    along = between(case, start[0], min(end[0], effective_length(case)))
     return [x for x in along if not gates.holds(case, x)]
+
+
+def between(case, start, end):
+    """x of the columns of the lattice between two places [m]."""
+    spacing = case.particles.spacing
+    return (np.arange(round(start / spacing), round(end / spacing)) + 0.5) * spacing
 
 
 def ground(case, x, bottom=-np.inf):
@@ -165,7 +169,7 @@ def laid(case, start, end):
 def _around(case, low, high):
     """Sites in and around a box of water, with its surface between two layers: (n, 3) [m]."""
     spacing, layers = case.particles.spacing, case.particles.layers
-    length, width = round(case.tank.length / spacing), max(round(case.tank.width / spacing), 1)
+    length, width = obstacles.size(case.tank, spacing)
     first = max(round(low[0] / spacing) - layers, 0)
     last = min(round(high[0] / spacing) + layers, length)
     edge = width * spacing if case.dim == 3 else 0.0

@@ -86,12 +86,6 @@ def _jitter(case, n):
     return move
 
 
-def _columns(case, start, end):
-    """x of the particle columns between two places [m]."""
-    spacing = case.particles.spacing
-    return (np.arange(round(start / spacing), round(end / spacing)) + 0.5) * spacing
-
-
 def _stack(case, x, top):
     """Solid particles of one column, from the bed up, none squeezed in: (n, 2) [m]."""
     spacing = case.particles.spacing
@@ -133,7 +127,7 @@ def _staircase(case, behind):
     """Bed cut out of the lattice, in steps of one spacing (to compare with the smooth bed)."""
     layers, spacing = case.particles.layers, case.particles.spacing
     end = effective_length(case)
-    x = _columns(case, -behind, end + layers * spacing)
+    x = filling.between(case, -behind, end + layers * spacing)
     top = np.ceil(beds.elevation(case.tank.bed, x) / spacing - 0.5)
     lowest = np.array([top[max(i - layers, 0) : i + layers + 1].min() for i in range(len(x))])
     high = np.array([top[max(i - 1, 0) : i + 2].min() for i in range(len(x))])
@@ -166,7 +160,7 @@ def _gates(case, floor):
     """Vertical columns of the gates, standing on the bed: (n, 2) [m] and kinds (n,)."""
     rows, kinds = [np.zeros((0, 2))], [np.zeros(0, np.int8)]
     for low, high in gates.faces(case):
-        columns = _columns(case, low, high)
+        columns = filling.between(case, low, high)
         for x in columns:
             rows.append(_stack(case, x, case.tank.height))
             outer = x in (columns[0], columns[-1])
@@ -207,7 +201,7 @@ def _side_wall(case, solid, kind, outside, backmost):
     """One layer of a side wall: the whole section of the tank, and the solids beyond it."""
     spacing, layers = case.particles.spacing, case.particles.layers
     behind = np.ceil(-backmost / spacing) * spacing if case.wavemaker.type != "none" else 0.0
-    x = _columns(case, -behind - layers * spacing, effective_length(case) + layers * spacing)
+    x = filling.between(case, -behind - layers * spacing, effective_length(case) + layers * spacing)
     section = np.vstack([_stack(case, place, case.tank.height) for place in x])
     fixed = (kind == WALL) | (kind == DUMMY)
     below = solid[:, 1] < beds.elevation(case.tank.bed, solid[:, 0])

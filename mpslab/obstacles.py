@@ -107,7 +107,7 @@ def deep_inside(case, position):
 
 def _block(tank, spacing, box):
     low, high = (np.round(np.array(corner) / spacing) for corner in (box.start, box.end))
-    length, width = _size(tank, spacing)
+    length, width = size(tank, spacing)
     flat = tank.width == 0.0
     whole_width = low[1] <= 0.0 and high[1] >= width
     if low[0] <= 0.0:
@@ -123,7 +123,7 @@ def _block(tank, spacing, box):
     return low, high
 
 
-def _size(tank, spacing):
+def size(tank, spacing):
     """Length and width of the tank in whole spacings; width 1 in 2-D."""
     return round(tank.length / spacing), max(round(tank.width / spacing), 1)
 
@@ -145,7 +145,7 @@ def cut(start, end, low, high):
 
 def _cells(case, low, high):
     """Lattice cells of a block inside the tank, (n, 3) int."""
-    length, width = _size(case.tank, case.particles.spacing)
+    length, width = size(case.tank, case.particles.spacing)
     ends = np.clip([low[0], high[0]], 0, length) * case.particles.spacing
     ground = np.floor(beds.lowest(case.tank.bed, *ends) / case.particles.spacing)
     least, most = (0, 0, ground), (length, width, np.inf)
@@ -162,7 +162,7 @@ def _meets_water(case, place):
 
 def _open(case, place):
     """Whether places (n, 3) [spacings] are in the tank and in no obstacle, (n,) bool."""
-    length, width = _size(case.tank, case.particles.spacing)
+    length, width = size(case.tank, case.particles.spacing)
     spacing, x, y = case.particles.spacing, place[:, 0], place[:, 1]
     if case.tank.periodic:
         place = np.column_stack([x, y % width, place[:, 2]])
