@@ -19,8 +19,10 @@ help:
 tank: .venv/built
 	$(BIN)/python -m mpslab.tank
 
+# On all cores; the tests of one file stay together, as many share a run.
+PYTEST := $(BIN)/pytest -n auto --dist loadfile
 test: .venv/tested lint
-	$(BIN)/python -m pytest
+	$(PYTEST)
 
 # These lead into every function of the kernels, most on some hundred particles.  What starts
 # processes of its own, as runs from the command line do, has the usual kernels there.
@@ -32,7 +34,7 @@ build/checked/built: .venv/tested $(SOURCES) $(shell find mpslab -name '*.py')
 	touch $@
 
 test-checked: build-checked
-	PYTHONPATH=build/checked $(BIN)/pytest $(CHECKED)
+	PYTHONPATH=build/checked $(PYTEST) $(CHECKED)
 
 validation: .venv/tested
 	$(BIN)/python -m validation

@@ -22,11 +22,16 @@ KIND = "kernels-checked" if CHECKED else "kernels-portable" if PORTABLE else "ke
 # Fast mathematics lets the compiler sum a row in vector lanes.  Not-a-number stays a number that
 # can be tested for, and nothing goes into the link arguments: there, the option would switch
 # denormal numbers off in the whole process.
-FLAGS = ["-O3", "-ffast-math", "-fno-finite-math-only"]
-if not PORTABLE:
+FLAGS = ["-O1"] if CHECKED else ["-O3", "-ffast-math", "-fno-finite-math-only"]
+FLAGS += ["-g0"]  # no tables for a debugger: they take a third of the time to compile
+if not (CHECKED or PORTABLE):
     FLAGS += ["-march=native", "-mtune=generic"]
 
 CORES = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+# The code behind array arguments, once for all kernels: in each, it takes most of the time to
+# compile.
+SHARED = "mpslab._memoryviews"
 
 DIRECTIVES = {
     "language_level": 3,
@@ -38,10 +43,11 @@ DIRECTIVES = {
 
 
 def extensions():
-    """One extension for each .pyx below the package."""
+    """One extension for each .pyx below the package, and one for what they share."""
     for source in sorted(Path("mpslab").rglob("*.pyx")):
         name = ".".join(source.with_suffix("").parts)
         yield Extension(name, [str(source)], extra_compile_args=FLAGS)
+    yield Extension(SHARED, ["mpslab/_memoryviews.c"], extra_compile_args=FLAGS)
 
 
 setup(
@@ -50,6 +56,7 @@ setup(
         compiler_directives=DIRECTIVES,
         build_dir=f"build/{KIND}/cython",
         nthreads=CORES,
+        shared_utility_qualified_name=SHARED,
     ),
     options={
         "build_ext": {"parallel": CORES, "force": CHECKED or PORTABLE},

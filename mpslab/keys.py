@@ -93,14 +93,14 @@ def did_you_mean(word, choices) -> str:
 
 
 def shown(value) -> str:
-    """A value in one short line."""
+    """A value in one short line; of a long one, as a path, the beginning and the end."""
     if isinstance(value, bool):
         return str(value).lower()
     try:
         line = repr(_as_lists(value))
     except ValueError:  # Python writes no whole number of thousands of digits
         line = "a number of thousands of digits"
-    return line if len(line) <= 80 else line[:77] + "..."
+    return line if len(line) <= 80 else f"{line[:30]}...{line[-47:]}"
 
 
 def _as_lists(value):
