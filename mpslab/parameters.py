@@ -147,6 +147,11 @@ class Wavemaker:
     height: float = key("wave height; 0 where a type needs none", 0.0, unit="m", low=0)
     period: float = key("wave period; 0 where a type needs none", 0.0, unit="s", low=0)
     stroke: float = key("stroke of the piston; 0 to follow from height", 0.0, unit="m", low=0)
+    first: str = key(
+        "which way the piston goes first; backward with linear and second_order only",
+        "forward",
+        choices=("forward", "backward"),
+    )
     start: float = key("time in which the motion fades in; 0 for none", 0.0, unit="s", low=0)
     file: str = key(
         'file of time [s] and displacement [m], such as CSV; "" for none',

@@ -5,8 +5,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.optimize import minimize_scalar
 
-from mpslab import paddle, plugins, waves
+from mpslab import cases, paddle, plugins, waves
+from mpslab.keys import CaseError
 
 G = 9.81
 DEPTH = 0.040
@@ -15,8 +17,8 @@ END = 3.0
 
 
 def settings(**given):
-    blank = {"type": "", "height": 0.0, "period": 0.0, "stroke": 0.0, "start": 0.0, "file": "",
-             "offset": 0.0, "smoothing": 0.0}  # fmt: skip
+    blank = {"type": "", "height": 0.0, "period": 0.0, "stroke": 0.0, "first": "forward",
+             "start": 0.0, "file": "", "offset": 0.0, "smoothing": 0.0}  # fmt: skip
     return SimpleNamespace(**{**blank, **given})
 
 
@@ -134,6 +136,28 @@ def test_linear_is_a_cosine_of_the_biesel_stroke():
     np.testing.assert_allclose(path(motion, t), expected, atol=1e-6)
     assert np.max(velocity(motion, t)) == pytest.approx(0.147, abs=5e-4)
     assert motion.height == HEIGHT
+
+
+@pytest.mark.parametrize(("name", "height"), [("linear", HEIGHT), ("second_order", 0.006)])
+def test_a_piston_that_goes_backward_first_does_later_what_the_other_did(name, height):
+    forward = make(name, height=height, period=PERIOD)
+    back = make(name, height=height, period=PERIOD, first="backward")
+    t = np.linspace(0.0, 2.0, 401)
+    moved = path(back, t)
+    assert back.foremost == pytest.approx(0.0, abs=1e-12)
+    assert back.backmost == pytest.approx(-forward.stroke, rel=1e-3)
+    assert np.all(np.diff(moved[t < 0.4 * PERIOD]) < 0.0)
+    # The same cycle, from the place where it turns back.
+    turn = minimize_scalar(lambda t: -forward.displacement(t), bounds=(0.0, PERIOD)).x
+    late = path(forward, t + turn)
+    np.testing.assert_allclose(moved - moved[0], late - late[0], atol=2e-4 * forward.stroke)
+
+
+@pytest.mark.parametrize("name", ["cnoidal", "solitary", "still"])
+def test_backward_first_is_refused_where_a_theory_has_no_such_motion(name):
+    changes = {"wavemaker.type": name, "wavemaker.first": "backward"}
+    with pytest.raises(CaseError, match=r"wavemaker\.first = 'backward': must be 'forward' for"):
+        cases.load_case("plunging_breaker", changes)
 
 
 def test_linear_stroke_overrides_the_height():

@@ -186,6 +186,9 @@ def _check_motion(case):
         maker.stroke,
         f"< tank.length = {tank.length:g} m, or the piston leaves the tank",
     )
+    turns = maker.type in ("linear", "second_order") or maker.first == "forward"
+    rule = f"'forward' for wavemaker.type = {maker.type!r}"
+    require(turns, "wavemaker.first", maker.first, rule)
     if maker.type == "file":
         exists = bool(maker.file) and Path(maker.file).is_file()
         require(exists, "wavemaker.file", maker.file, "a CSV file that exists")

@@ -11,15 +11,17 @@ from mpslab.wavemakers import _regular
 def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     """Paddle X = (S / 2) (1 - cos omega t): it starts from its rearmost place, so at rest.
 
+    With wavemaker.first = "backward", from its foremost: X = -(S / 2) (1 - cos omega t).
     S is wavemaker.stroke or, where that is 0, follows from the height by H / S = 4 sinh^2 kh /
     (sinh 2kh + 2kh).
 
     Raises ValueError as `_regular.first_order` does.
     """
     wave = _regular.first_order(wavemaker, depth, gravity)
+    half = 0.5 * wave.stroke * (1.0 if wavemaker.first == "forward" else -1.0)
 
     def motion(t):
-        travel = 0.5 * wave.stroke * (1.0 - np.cos(wave.frequency * t))
+        travel = half * (1.0 - np.cos(wave.frequency * t))
         return paddle.soft_start(t, wavemaker.start) * travel
 
     times, whole = (

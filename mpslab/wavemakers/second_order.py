@@ -12,14 +12,14 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     """Paddle X = (S / 2) sin(a) + B sin(2 a) less its value at t = 0, with a = omega t + a0.
 
     B = H^2 / (32 h) (3 cosh kh / sinh^3 kh - 2 S / H) (Madsen 1971) and S as for `linear`; a0 is
-    where the velocity vanishes and turns forward.
+    where the velocity vanishes and turns forward, or with wavemaker.first = "backward" turns back.
 
     Raises ValueError as `_regular.first_order` does, or if H L^2 / h^3 >= 8 pi^2 / 3.
     """
     wave = _regular.first_order(wavemaker, depth, gravity)
     _require_range(wavemaker, wave, depth)
     first, second = 0.5 * wave.stroke, _second_harmonic(wave, depth)
-    start = _rest_phase(first, second)
+    start = _rest_phase(first, second) * (1.0 if wavemaker.first == "forward" else -1.0)
 
     def path(phase):
         return first * np.sin(phase) + second * np.sin(2.0 * phase)
