@@ -5,7 +5,7 @@ from dataclasses import fields
 from pathlib import Path
 
 from mpslab.cases.recipes import RECIPES
-from mpslab.parameters import Scheme
+from mpslab.scheme import Scheme
 
 # A picture does not depend on these, but for rounding.
 UNSEEN = ("recipe", "solver", "tolerance", "max_iterations")

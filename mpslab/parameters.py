@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, fields
 
 from mpslab.bed import elevation
 from mpslab.keys import CaseError, check_table, check_value, key, shown
+from mpslab.scheme import Scheme
 
 # A name becomes the heading of a column, or part of a file name.
 NAME = {"kind": "text", "forbidden": ",;\"'[]/\\#", "longest": 80}
@@ -189,77 +190,6 @@ class Particles:
         "layers of particles along the slope, or on the lattice",
         "smooth",
         choices=("smooth", "staircase"),
-    )
-
-    def __post_init__(self):
-        check_table(self)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Scheme:
-    """The numerical scheme. A recipe fills in the keys that a case does not set."""
-
-    recipe: str = key("set of models that fills in what is not set here", "standard")
-    gradient: str = key("pressure gradient", "corrected", family="gradients")
-    source: str = key("source of the Poisson equation", "adjoint", family="sources")
-    laplacian: str = key("Laplacian of pressure", "standard", family="laplacians")
-    solver: str = key("solver of the Poisson equation", "deflated", family="solvers")
-    stabiliser: tuple = key(
-        "what keeps particles apart",
-        ("corrected_shifting", "ds"),
-        kind="texts",
-        family="stabilisers",
-    )
-    projection: str = key(
-        "where the pressure acts: at the predicted positions (as in MPS), or those of the start",
-        "start",
-        choices=("predicted", "start"),
-    )
-    walls: str = key(
-        "wall pressure: an unknown of its own, or extrapolated from the water",
-        "extrapolated",
-        choices=("solved", "extrapolated"),
-    )
-    surface: str = key(
-        "free surface: p = 0 at marked particles, or a graded pull towards p = 0 above them",
-        "graded",
-        choices=("marked", "graded"),
-    )
-    tolerance: float = key("relative residual of the solver", 1e-5, above=0, high=0.1)
-    max_iterations: int = key("most iterations of the solver", 2000, low=1)
-    effective_radius: float = key(
-        "radius of gradient and number density", 2.1, unit="spacings", low=1.5, high=6
-    )
-    laplacian_radius: float = key("radius of the Laplacian", 2.1, unit="spacings", low=1.5, high=6)
-    relaxation: float = key("relaxation factor of the source 'density'", 0.2, above=0, high=1)
-    gamma: float = key(
-        "share of the density error that a largest step takes back, in the sources 'mixed', "
-        "'corrected' and 'adjoint'; over 20 layers of water less, 20 gamma/layers",
-        0.005,
-        low=0,
-        high=1,
-    )
-    surface_threshold: float = key(
-        "n/n0 below which a particle is free surface, where it is marked", 0.97, above=0, high=1
-    )
-    shifting_strength: float = key(
-        "strength of 'shifting' and 'corrected_shifting'", 0.25, low=0, high=1
-    )
-    settling: int = key(
-        "passes of 'corrected_shifting' before the start, which take the water off the lattice",
-        400,
-        low=0,
-        high=10_000,
-    )
-    ds_distance: float = key("distance kept by 'ds'", 0.8, unit="spacings", above=0, high=1)
-    collision_distance: float = key(
-        "distance kept by 'collision'", 0.5, unit="spacings", above=0, high=1
-    )
-    restitution: float = key("coefficient of restitution of 'collision'", 0.2, low=0, high=1)
-    clip_pressure: bool = key("set negative pressure to zero", True)
-    wall_slip: bool = key("leave walls out of viscosity and eddies", True)
-    smagorinsky: float = key(
-        "constant C_s of an eddy viscosity (C_s spacing)^2 |S|; 0 for none", 0.0, low=0, high=0.5
     )
 
     def __post_init__(self):

@@ -16,7 +16,7 @@ FLOORS = {
     "deflation conjugate_gradient piston geometry filling correction obstacles "
     "gates friction census",
     2: "balance communicator headcount domain rebalance",
-    1: "particles neighbors stencil sparse slabs parameters keys plugins bed paddle waves breaking "
+    1: "particles neighbors stencil sparse slabs parameters scheme keys plugins bed paddle waves breaking "
     "stopwatch files journal lock tables series memory",
     0: "kernels",
 }
