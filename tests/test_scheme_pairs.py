@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tanks import make_case
 
-from mpslab import CaseError, Simulation
+from mpslab import CaseError, Simulation, load_case
 
 D0, DEPTH, STEPS = 0.002, 0.04, 20
 GRAVITY, DENSITY = 9.81, 1000.0
@@ -76,3 +76,20 @@ def test_graded_surface_over_solved_walls_is_refused_with_the_reason():
 def test_wide_radius_beside_solved_walls_is_refused_with_the_reason():
     with pytest.raises(CaseError, match=r"effective_radius = 3\.1.*only the first layer"):
         case_of("marked", "solved", "start", 3.1, 2.1, 2, 0.0)
+
+
+def test_thin_water_at_a_shore_stays_above_the_bed_with_the_recipe_of_the_paper():
+    """Six of 632 particles of water were lost through the bed by now with collisions at 0.5 d0."""
+    case = load_case(
+        "hydrostatic",
+        {
+            "scheme.recipe": "paper", "particles.spacing": 0.01, "particles.jitter": 0.1,
+            "tank.length": 0.5, "tank.width": 0.08, "tank.periodic": True,
+            "tank.bed": [[0.0, 0.0], [0.05, 0.0], [0.5, 0.06]], "time.end": 0.4,
+        },
+    )  # fmt: skip
+    sim = Simulation(case)
+    sim.run()
+    assert sim.lost == 0
+    water = sim.particles.position[sim.particles.fluid]
+    assert np.all(water[:, 2] > np.interp(water[:, 0], *np.transpose(case.tank.bed)) - 0.005)
