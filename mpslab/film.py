@@ -5,6 +5,7 @@ wave and above. A run that goes on can be filmed as far as it has come.
 """
 
 import argparse
+import os
 import sys
 import time as clock
 from contextlib import contextmanager
@@ -112,6 +113,8 @@ def _check_options(out, fps, width, limit):
     reel.check_path(out)
     if not out.parent.is_dir():
         raise ValueError(f"--out {out}: there is no folder {out.parent}")
+    if not os.access(out.parent, os.W_OK):
+        raise ValueError(f"--out {out}: the folder {out.parent} cannot be written to")
     if not FPS[0] <= fps <= FPS[1]:
         raise ValueError(f"--fps {fps:g}: must be from {FPS[0]:g} to {FPS[1]:g}")
     if not WIDTHS[0] <= width <= WIDTHS[1]:

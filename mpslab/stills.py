@@ -25,8 +25,10 @@ AZIMUTH, ELEVATION = -24.0, 20.0
 GROUND = 0.12  # water depths of the bed that are shown
 # In 3-D the colours of speed are those of water: deep blue at rest, white as foam where it is fast.
 SEA = LinearSegmentedColormap.from_list(
-    "sea", [(0.08, 0.30, 0.55), (0.20, 0.52, 0.78), (0.55, 0.80, 0.93), (0.95, 0.98, 1.0)]
-)
+    "sea",
+    [(0.0, (0.08, 0.30, 0.55)), (0.4, (0.20, 0.52, 0.78)), (0.75, (0.52, 0.79, 0.93)),
+     (1.0, (0.88, 0.95, 0.99))],
+)  # fmt: skip
 TEXT = {"fontsize": 9.5, "color": "0.15"}
 SPRAY = 0.999  # share of the water that is to be in the picture: spray may fly out of it
 
@@ -233,11 +235,12 @@ class _InSpace:
     def _draw_ticks(self, ax, unit):
         """Places along x below the near side of the tank."""
         (left, right), _, _ = self.view.box
-        ticks = MaxNLocator(8).tick_values(left, right)
+        ticks = MaxNLocator(10, steps=[1, 2, 5, 10]).tick_values(left, right)
         ticks = ticks[(ticks >= left) & (ticks <= right)]
+        digits = max(int(np.ceil(-np.log10(ticks[1] - ticks[0]) - 1e-9)), 0)
         for x, (across, down) in zip(ticks, self._below(ticks), strict=True):
             ax.plot([across] * 2, [down + 2 * unit, down + 7 * unit], color="0.4", linewidth=0.8)
-            ax.text(across, down + 9 * unit, f"{x:.3g}", ha="center", va="top", fontsize=9)
+            ax.text(across, down + 9 * unit, f"{x:.{digits}f}", ha="center", va="top", fontsize=9)
         middle = len(ticks) // 2
         across, down = self._below(ticks[middle - 1 : middle + 1]).mean(axis=0)
         ax.text(across, down + 9 * unit, "x [m]", ha="center", va="top", **TEXT)
