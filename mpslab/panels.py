@@ -23,7 +23,10 @@ FACES = {WALL: "wall", PISTON: "piston", GATE: "gate"}
 FILLERS = {DUMMY: "wall", PISTON_DUMMY: "piston", GATE_DUMMY: "gate"}
 STILL_WATER = {"color": "#d55e00", "linewidth": 1.0, "linestyle": (0, (6, 4))}
 WATER = "#3b7dbf"  # where the frames do not hold what would colour it
-MAPS = {"speed": "viridis", "pressure": "plasma"}  # even to the eye
+MAPS = {"speed": "viridis", "along": "cividis", "pressure": "plasma"}  # even to the eye
+LABELS = {"speed": "speed [m/s]", "along": "velocity along the tank [m/s]",
+          "pressure": "pressure [Pa]"}  # fmt: skip
+BACKWARD = 0.5  # the colours of velocity along the tank begin at -1 times that of their end
 # The colours of speed end at the one of these times sqrt(g h) that is nearest to what is expected:
 # of a crest that breaks, over the speed below it by the linear theory of long waves; of a column
 # that collapses, and of still water, over sqrt(g h).
@@ -43,7 +46,7 @@ class Scale:
     Attributes
     ----------
     field : str
-        "speed" or "pressure".
+        "speed", "along" or "pressure".
     end : float
         Where the colours end, in units of the tank.
     unit : float [m/s] or [Pa]
@@ -60,7 +63,8 @@ class Scale:
     @property
     def norm(self):
         """Of matplotlib, over values in SI units."""
-        return Normalize(0.0, self.end * self.unit)
+        end = self.end * self.unit
+        return Normalize(-BACKWARD * end if self.field == "along" else 0.0, end)
 
 
 def make_scale(case, field):
@@ -71,7 +75,7 @@ def make_scale(case, field):
     case : dict
         The case as its TOML file holds it.
     field : str
-        "speed" or "pressure".
+        "speed", "along" or "pressure".
 
     Returns
     -------
@@ -131,17 +135,15 @@ def draw_panels(slices, case, box, title, field):
     (left, right), (bottom, top) = box
     aspect = (top - bottom) / (right - left)
     columns = 1 if aspect < 0.2 or len(slices) == 1 else 2
-    size = case["particles"]["spacing"]
-    if 72 * PAGE_WIDTH / columns * size / (right - left) < SMALL:
-        size *= CLOSED
+    size = disc_size(case["particles"]["spacing"], 72 * PAGE_WIDTH / columns / (right - left))
     rows = -(-len(slices) // columns)
     height = rows * (0.9 * PAGE_WIDTH / columns * aspect + 0.45) + 2.6
     figure = Figure(figsize=(PAGE_WIDTH, height), layout="constrained")
     figure.get_layout_engine().set(h_pad=0.08)
     axes = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
     for ax, piece in zip(axes, slices, strict=False):
-        water = _draw_slice(ax, piece, case, scale, size)
-        _draw_still_water(ax, case)
+        water = draw_slice(ax, piece, case, scale, size)
+        draw_still_water(ax, case)
         ax.set(xlim=box[0], ylim=box[1], aspect="equal", xlabel="x [m]", ylabel="z [m]")
         ax.set_title(f"t = {piece.time:.3f} s", loc="left")
         ax.label_outer()
@@ -159,7 +161,7 @@ def _draw_colour_bar(figure, axes, water, scale):
     """The colour bar, below in SI units and above in those of the tank."""
     bar = figure.colorbar(
         water, ax=axes.tolist(), location="bottom", extend="max", shrink=0.6, aspect=50, pad=0.02,
-        label=f"{scale.field} [{'Pa' if scale.field == 'pressure' else 'm/s'}]",
+        label=LABELS[scale.field],
     )  # fmt: skip
     if scale.name:
         above = bar.ax.secondary_xaxis(
@@ -202,8 +204,30 @@ def _solid(piece, case, name):
     return np.isin(piece.kind, (WALL, DUMMY)) & (inside if name == "obstacle" else ~inside)
 
 
-def _draw_slice(ax, piece, case, scale, size):
-    """Particles as discs of a size [m]; returns those of the water."""
+def disc_size(spacing, scale):
+    """Diameter of the discs [m], of particles of a spacing [m] at a scale [points/m]."""
+    return spacing if spacing * scale >= SMALL else CLOSED * spacing
+
+
+def draw_slice(ax, piece, case, scale, size):
+    """Particles as discs.
+
+    Parameters
+    ----------
+    ax : matplotlib Axes
+    piece : mpslab.snapshots.Slice
+    case : dict
+        The case as its TOML file holds it.
+    scale : Scale, or None
+        Colours of the water; None for one colour.
+    size : float [m]
+        Diameter of the discs.
+
+    Returns
+    -------
+    matplotlib EllipseCollection
+        That of the water.
+    """
     is_face = np.isin(piece.kind, list(FACES))
     for name, colours in SOLIDS.items():
         solid = _solid(piece, case, name)
@@ -233,7 +257,7 @@ def _draw_discs(ax, piece, mask, size, **colour):
     return ax.add_collection(discs)
 
 
-def _draw_still_water(ax, case):
+def draw_still_water(ax, case):
     """The still-water line up to the shore, where the tank was filled to its still depth."""
     if case.get("water"):
         return

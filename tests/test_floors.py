@@ -7,10 +7,10 @@ import mpslab
 
 ROOT = Path(mpslab.__file__).parent
 FLOORS = {
-    6: "tank progress measures launch terminal",
+    6: "tank progress measures film launch terminal",
     5: "simulation record watch output checkpoint vtkhdf snapshots overturning gauges pictures "
     "preflight cases initial inputs restart provenance diagnostics scatter headings panels "
-    "catalogue",
+    "catalogue freesurface light view renderers scene stills reel",
     4: "step timestep settling",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
     "deflation conjugate_gradient piston geometry filling correction obstacles "
