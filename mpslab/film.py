@@ -13,12 +13,13 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import reel, scene, vtkhdf
+from mpslab import vtkhdf
 from mpslab.files import FULL
 from mpslab.particles import FLUID
 from mpslab.pictures import read_case
 from mpslab.progress import LINE_EVERY, make_bar
-from mpslab.stills import Shot, box_of
+from mpslab.scenes import reel, scene
+from mpslab.scenes.stills import Shot, box_of
 from mpslab.terminal import unbroken
 
 BAD_INPUT, FAILED, INTERRUPTED = 2, 3, 130

@@ -63,10 +63,10 @@ class Scheme:
     )
     ds_distance: float = key("distance kept by 'ds'", 0.8, unit="spacings", above=0, high=1)
     collision_distance: float = key(
-        "distance kept by 'collision'; below 0.71 water slips between the particles of a 3-D wall",
-        0.8,
+        "distance kept by 'collision'; 0 for 0.5, in 3-D 0.8: below 0.71 walls leak",
+        0.0,
         unit="spacings",
-        above=0,
+        low=0,
         high=1,
     )
     restitution: float = key("coefficient of restitution of 'collision'", 0.2, low=0, high=1)

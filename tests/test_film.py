@@ -10,7 +10,8 @@ import pytest
 from PIL import Image
 from synthetic import tank, write_run
 
-from mpslab import film, reel, scene, stills
+from mpslab import film
+from mpslab.scenes import reel, scene, stills
 from mpslab.particles import make_particles
 from mpslab.vtkhdf import ParticleSeries
 

@@ -8,14 +8,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from mpslab.light import lit
+from mpslab.scenes.light import lit
 
 FINE = 2  # pixels drawn for each that is returned, along each side
 FINEST = 24  # points along a side of a triangle
 
 
 def render(scene):
-    """Draw a scene; see `mpslab.renderers`."""
+    """Draw a scene; see `mpslab.scenes.renderers`."""
     width, height = scene.view.size
     view = replace(scene.view, size=(FINE * width, FINE * height))
     canvas = _Canvas(view)

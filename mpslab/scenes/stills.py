@@ -9,12 +9,12 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from mpslab import scene
 from mpslab.headings import heading
 from mpslab.panels import LABELS, MAPS, disc_size, draw_slice, draw_still_water, make_scale
 from mpslab.particles import FLUID, GATE, GATE_DUMMY, PISTON
+from mpslab.scenes import scene
+from mpslab.scenes.view import fitted
 from mpslab.snapshots import middle_slice
-from mpslab.view import fitted
 
 UNITS = 960  # of the layout across a picture, whatever its pixels
 HEADING, CLOCK, SCALE, BAR = 20, 26, 42, 54  # heights [units]: a line, time, ticks, colour bar

@@ -8,9 +8,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from mpslab.freesurface import find_surface
-from mpslab.light import GLOSS, lit
-from mpslab.view import View
+from mpslab.scenes.freesurface import find_surface
+from mpslab.scenes.light import GLOSS, lit
+from mpslab.scenes.view import View
 
 WATER = (0.23, 0.53, 0.78)  # where no field colours it
 BED, PADDLE, BLOCK = (0.80, 0.76, 0.69), (0.32, 0.33, 0.35), (0.58, 0.45, 0.33)
@@ -28,7 +28,7 @@ class Picture:
     image : (h, w, 3) uint8
         Its first row is the upper one.
     project : function ((n, 3) or (3,) [m]) -> (n, 2) or (2,) float64 [pixels]
-        As `mpslab.view.View.project`: from the upper left corner, so that with
+        As `mpslab.scenes.view.View.project`: from the upper left corner, so that with
         ``ax.imshow(image, extent=(0, w, h, 0))`` they are the coordinates of the axes.
     """
 
@@ -47,7 +47,7 @@ class Scene:
         Flat sides of solids.
     spheres : (n, 3) float64 [m]
     sphere_colours : (n, 3) float64 [0 to 1]
-        Not yet lit: see `mpslab.light`.
+        Not yet lit: see `mpslab.scenes.light`.
     radius : float [m]
     points : (k, 3) float64 [m]
         Of a surface.
@@ -79,14 +79,14 @@ def draw(
     water : (n, 3) array_like [m]
         Water particles; those outside the limits of x of the view are cut off.
     spacing : float [m]
-    view : mpslab.view.View
+    view : mpslab.scenes.view.View
     values : (n,) array_like, optional
         What colours the water; without it, `colour` does.
     cmap : str or matplotlib Colormap
     limits : (float, float), optional
         Values at the ends of the colours; those of the water by default.
     as_surface : bool
-        The surface of the water (`mpslab.freesurface`), with spray as spheres, or all particles as
+        The surface of the water (`mpslab.scenes.freesurface`), with spray as spheres, or all particles as
         spheres.
     bed : sequence of (x, z) [m], optional
         x ascending; carried on level to the left.
@@ -147,7 +147,7 @@ def _renderer(backend):
         raise ValueError(f"backend = {name!r}: must be out of {', '.join(BACKENDS)}")
     if name == "pyvista" and available() != name:
         raise ValueError("backend = 'pyvista': is not installed; pip install 'mpslab[viz]'")
-    return import_module(f"mpslab.renderers.{name}").render
+    return import_module(f"mpslab.scenes.renderers.{name}").render
 
 
 class _Paint:

@@ -4,13 +4,13 @@ import numpy as np
 import pyvista
 import vtk
 
-from mpslab.light import shader
+from mpslab.scenes.light import shader
 
 MULTISAMPLES = 8
 
 
 def render(scene):
-    """Draw a scene; see `mpslab.renderers`."""
+    """Draw a scene; see `mpslab.scenes.renderers`."""
     with _silence():
         plotter = pyvista.Plotter(off_screen=True, window_size=list(scene.view.size))
         try:
