@@ -11,8 +11,8 @@ from PIL import Image
 from synthetic import tank, write_run
 
 from mpslab import film
-from mpslab.scenes import reel, scene, stills
 from mpslab.particles import make_particles
+from mpslab.scenes import reel, scene, stills
 from mpslab.vtkhdf import ParticleSeries
 
 SPACING, WIDTH = 0.008, 0.032

@@ -86,8 +86,8 @@ def draw(
     limits : (float, float), optional
         Values at the ends of the colours; those of the water by default.
     as_surface : bool
-        The surface of the water (`mpslab.scenes.freesurface`), with spray as spheres, or all particles as
-        spheres.
+        The surface of the water (`mpslab.scenes.freesurface`), with spray as spheres, or all
+        particles as spheres.
     bed : sequence of (x, z) [m], optional
         x ascending; carried on level to the left.
     ground : float [m], optional
