@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from mpslab import balance, load_case, vtkhdf
-from mpslab.particles import FLUID
+from mpslab.kinds import FLUID
 from mpslab.piston import make_paddle
 from mpslab.rebalance import load
 from mpslab.step import slabs_of

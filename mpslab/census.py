@@ -11,7 +11,7 @@ from mpslab import bed as beds
 from mpslab import filling, gates, obstacles
 from mpslab.filling import effective_length
 from mpslab.geometry import rows_across
-from mpslab.particles import (
+from mpslab.kinds import (
     DUMMY,
     FLUID,
     GATE,

@@ -9,8 +9,8 @@ import numpy as np
 from mpslab.files import needing, replacing
 
 FORMAT = "mpslab checkpoint"
-VERSION = 1
-FIELDS = ("gid", "kind", "position", "velocity", "pressure", "number_density", "surface")
+VERSION = 2
+FIELDS = ("gid", "role", "body", "position", "velocity", "pressure", "number_density", "surface")
 
 
 def write(path, particles, state):
@@ -21,7 +21,7 @@ def write(path, particles, state):
     path : str or Path
         The checkpoint file.
     particles : ParticleSet
-        Its seven arrays become datasets of the same names, in the order of gid.
+        Its arrays become datasets of the same names, in the order of gid.
     state : dict
         What else a restart needs: names to numbers, strings or arrays.
 

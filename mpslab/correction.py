@@ -16,7 +16,7 @@ def matrices(particles, neighbors, stencil):
     the bracket is below 0.6.
     """
     out = np.empty((len(particles), 6))
-    correction_matrix(particles.position, particles.kind, neighbors.indptr, neighbors.indices,
+    correction_matrix(particles.position, particles.role, neighbors.indptr, neighbors.indices,
                       stencil, True, LEAST_DETERMINANT, out)  # fmt: skip
     return out
 

@@ -5,7 +5,7 @@ Sums take `total`, which adds (n,) values of the particles: over all ranks it is
 
 import numpy as np
 
-from mpslab.particles import FLUID, GATE, PISTON
+from mpslab.particles import FACE, FILLER, PISTON, TANK
 
 
 def particle_volume(stencil):
@@ -14,9 +14,8 @@ def particle_volume(stencil):
 
 
 def max_speed(particles):
-    """Largest speed of the water, the piston and the gates [m/s]; 0 when there are none."""
-    kind = particles.kind
-    moving = (kind == FLUID) | (kind == PISTON) | (kind == GATE)
+    """Largest speed of the water and of the faces that move [m/s]; 0 when there are none."""
+    moving = (particles.role != FILLER) & (particles.body != TANK)
     square = np.einsum("ij,ij->i", particles.velocity, particles.velocity)
     return float(np.sqrt(square.max(initial=0.0, where=moving)))
 
@@ -40,9 +39,9 @@ def piston_force(particles, stencil, total=np.sum):
 
     The pressure of the piston's first layer, each particle for a face of d0^(Ds-1).
     """
-    face = stencil.spacing ** (stencil.dim - 1)
-    pressure = np.where(particles.kind == PISTON, particles.pressure, 0.0)
-    return face * float(total(pressure))
+    area = stencil.spacing ** (stencil.dim - 1)
+    face = (particles.role == FACE) & (particles.body == PISTON)
+    return area * float(total(np.where(face, particles.pressure, 0.0)))
 
 
 def volume(particles, stencil, total=np.sum):

@@ -15,7 +15,7 @@ import numpy as np
 
 from mpslab import vtkhdf
 from mpslab.files import FULL
-from mpslab.particles import FLUID
+from mpslab.kinds import FLUID
 from mpslab.pictures import read_case
 from mpslab.progress import LINE_EVERY, make_bar
 from mpslab.scenes import reel, scene

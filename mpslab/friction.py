@@ -24,7 +24,7 @@ def acceleration(particles, neighbors, stencils, matrices, fluid, scheme, refres
     """
     stencil, laplacian_stencil = stencils
     out = np.zeros_like(particles.velocity)
-    place = particles.position, particles.velocity, particles.kind
+    place = particles.position, particles.velocity, particles.role
     pairs = neighbors.indptr, neighbors.indices
     if fluid.viscosity > 0.0:
         kernels.viscous_acceleration(

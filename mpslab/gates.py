@@ -9,7 +9,12 @@ import numpy as np
 
 from mpslab import bed as beds
 from mpslab.obstacles import least_thickness
-from mpslab.particles import GATE, GATE_DUMMY
+from mpslab.particles import FIRST_SOLID
+
+
+def first(case):
+    """Number of the first gate among the bodies."""
+    return FIRST_SOLID + len(case.obstacle)
 
 
 def faces(case):
@@ -53,7 +58,5 @@ def _lifted(case, time):
 
 def _find(case, particles):
     """Rows of the particles of gates, and the number of the gate of each."""
-    moving = np.flatnonzero((particles.kind == GATE) | (particles.kind == GATE_DUMMY))
-    edges = faces(case)
-    order = np.argsort(edges[:, 0])
-    return moving, order[np.searchsorted(edges[order, 1], particles.position[moving, 0])]
+    moving = np.flatnonzero(particles.body >= first(case))
+    return moving, particles.body[moving] - first(case)

@@ -24,7 +24,7 @@ LEAST_SPREAD = 0.04
 ONE_PLACE = 1e-12  # [spacings^2] moment of neighbours that are all at one place
 
 
-def surface_elevation(position, kind, spacing, x, y=0.0, width=0.0):
+def surface_elevation(position, role, spacing, x, y=0.0, width=0.0):
     r"""Level of the water surface over a place.
 
     Along the vertical line through (x, y), the water fraction is
@@ -44,7 +44,7 @@ def surface_elevation(position, kind, spacing, x, y=0.0, width=0.0):
     Parameters
     ----------
     position : (n, 3) float64 [m]
-    kind : (n,) int8
+    role : (n,) int8
     spacing : float
         Particle spacing [m].
     x, y : float
@@ -59,7 +59,7 @@ def surface_elevation(position, kind, spacing, x, y=0.0, width=0.0):
     """
     near, weight = _column(position, spacing, x, y, width)
     height = position[near, 2] / spacing
-    is_fluid = kind[near] == FLUID
+    is_fluid = role[near] == FLUID
     if not is_fluid.any():
         return np.nan
     lowest = np.floor(height.min()) - 2
@@ -100,7 +100,7 @@ def _top(level, excess, occupied):
     return level[k] + excess[k] / (excess[k] - excess[k + 1]) / POINTS
 
 
-def probe(position, velocity, pressure, kind, spacing, point, width=0.0):
+def probe(position, velocity, pressure, role, spacing, point, width=0.0):
     """Pressure and velocity at a point, by moving least squares of first order.
 
     Where there is water within 1.1 spacings, so up to half a spacing above its surface: the
@@ -113,7 +113,7 @@ def probe(position, velocity, pressure, kind, spacing, point, width=0.0):
     position : (n, 3) float64 [m]
     velocity : (n, 3) float64 [m/s]
     pressure : (n,) float64 [Pa]
-    kind : (n,) int8
+    role : (n,) int8
     spacing : float
         Particle spacing [m].
     point : (3,) float
@@ -133,8 +133,8 @@ def probe(position, velocity, pressure, kind, spacing, point, width=0.0):
     inside = np.einsum("ij,ij->i", offset, offset) < reach**2
     near, offset = near[inside], offset[inside] / spacing
     far = np.sqrt(np.einsum("ij,ij->i", offset, offset))
-    wet = kind[near] == FLUID
-    loaded = carries_pressure(kind[near])
+    wet = role[near] == FLUID
+    loaded = carries_pressure(role[near])
     if not np.any(far[wet] <= WET):
         wet, loaded = np.zeros_like(wet), loaded & ~wet & (far <= ON_WALL)
     p = _least_squares(offset[loaded], pressure[near[loaded], None])

@@ -1,7 +1,8 @@
 """Initial particles of a case: water, bed, end walls, piston, gates, side walls, obstacles.
 
 The cross-section (x, z) is laid out first and then repeated across the tank.  Water particles
-stand half a spacing off every boundary, wall particles half a spacing behind it.
+stand half a spacing off every boundary, wall particles half a spacing behind it.  A kind is here a
+pair: role and body.
 """
 
 import numpy as np
@@ -10,16 +11,7 @@ import scipy
 from mpslab import bed as beds
 from mpslab import filling, gates, obstacles
 from mpslab.filling import effective_length
-from mpslab.particles import (
-    DUMMY,
-    FLUID,
-    GATE,
-    GATE_DUMMY,
-    PISTON,
-    PISTON_DUMMY,
-    WALL,
-    make_particles,
-)
+from mpslab.particles import FACE, FILLER, FLUID, PISTON, TANK, WATER, make_particles
 
 
 def rows_across(case):
@@ -62,20 +54,26 @@ def build_particles(case, backmost=0.0):
     position, kinds = _repeat_across(case, solid, kind, backmost)
     if case.obstacle:
         position, kinds = _with_obstacles(case, position, kinds)
-    position[kinds == FLUID] += _jitter(case, np.count_nonzero(kinds == FLUID))
+    water = kinds[:, 0] == FLUID
+    position[water] += _jitter(case, np.count_nonzero(water))
     cell = np.floor(position / spacing + 1e-6)
     order = np.lexsort((position[:, 2], cell[:, 1], cell[:, 0]))
-    particles = make_particles(position[order], kinds[order])
+    particles = make_particles(position[order], *kinds[order].T)
     _set_hydrostatic(case, particles)
     if case.obstacle or case.gate:
         obstacles.press(case, particles)
     return particles
 
 
+def labels(n, role, body=TANK):
+    """Role and body of n particles, (n, 2) int16; each a number, or (n,)."""
+    return np.column_stack([np.broadcast_to(what, n) for what in (role, body)]).astype(np.int16)
+
+
 def _with_obstacles(case, position, kinds):
     obstacles.cover(case, position, kinds)
-    body, kind = obstacles.fill(case, position[kinds != FLUID])
-    return np.vstack([position, body]), np.concatenate([kinds, kind])
+    body, kind = obstacles.fill(case, position[kinds[:, 0] != FLUID])
+    return np.vstack([position, body]), np.vstack([kinds, kind])
 
 
 def _jitter(case, n):
@@ -96,7 +94,7 @@ def _stack(case, x, top):
 
 
 def _solid_section(case, backmost):
-    """Bed, end walls, piston and gates in the cross-section: (n, 2) [m] and kinds (n,)."""
+    """Bed, end walls, piston and gates in the cross-section: (n, 2) [m] and kinds (n, 2)."""
     layers, spacing = case.particles.layers, case.particles.spacing
     behind = (layers + np.ceil(-backmost / spacing)) * spacing
     build = _staircase if case.particles.bed == "staircase" else _smooth_bed
@@ -104,9 +102,9 @@ def _solid_section(case, backmost):
     left, left_kind = _end_wall(case, floor, -1)
     right, right_kind = _end_wall(case, floor, 1)
     if case.wavemaker.type != "none":
-        left_kind = np.where(left_kind == WALL, PISTON, PISTON_DUMMY)
+        left_kind[:, 1] = PISTON
     plates, plate_kind = _gates(case, floor)
-    kinds = np.concatenate([floor_kind, left_kind, right_kind, plate_kind])
+    kinds = np.vstack([floor_kind, left_kind, right_kind, plate_kind])
     return np.vstack([floor, left, right, plates]), kinds
 
 
@@ -115,12 +113,12 @@ def _smooth_bed(case, behind):
     layers, spacing = case.particles.layers, case.particles.spacing
     points = beds.extended(case.tank.bed, behind, layers * spacing)
     rows = [beds.layer(points, (k + 0.5) * spacing, spacing) for k in range(layers)]
-    kinds = [np.full(len(r), DUMMY if k else WALL, np.int8) for k, r in enumerate(rows)]
+    kinds = [labels(len(row), FILLER if k else FACE) for k, row in enumerate(rows)]
     outside = rows[0][:, 0] > effective_length(case) + spacing
     if case.wavemaker.type == "none":
         outside |= rows[0][:, 0] < -spacing
-    kinds[0][outside] = DUMMY
-    return np.vstack(rows), np.concatenate(kinds)
+    kinds[0][outside, 0] = FILLER
+    return np.vstack(rows), np.vstack(kinds)
 
 
 def _staircase(case, behind):
@@ -138,8 +136,8 @@ def _staircase(case, behind):
         wall = (level >= high[i] - 1) & (place < end + spacing)
         if case.wavemaker.type == "none":
             wall &= place > -spacing
-        kinds.append(np.where(wall, WALL, DUMMY).astype(np.int8))
-    return np.vstack(rows), np.concatenate(kinds)
+        kinds.append(labels(len(level), np.where(wall, FACE, FILLER)))
+    return np.vstack(rows), np.vstack(kinds)
 
 
 def _end_wall(case, floor, side):
@@ -150,22 +148,23 @@ def _end_wall(case, floor, side):
         x = -(k + 0.5) * spacing if side < 0 else end + (k + 0.5) * spacing
         stack = _stack(case, x, case.tank.height)
         rows.append(stack)
-        kinds.append(np.full(len(stack), DUMMY if k else WALL, np.int8))
-    wall, kind = np.vstack(rows), np.concatenate(kinds)
+        kinds.append(labels(len(stack), FILLER if k else FACE))
+    wall, kind = np.vstack(rows), np.vstack(kinds)
     free = _clear(case, wall, floor)
     return wall[free], kind[free]
 
 
 def _gates(case, floor):
-    """Vertical columns of the gates, standing on the bed: (n, 2) [m] and kinds (n,)."""
-    rows, kinds = [np.zeros((0, 2))], [np.zeros(0, np.int8)]
-    for low, high in gates.faces(case):
+    """Vertical columns of the gates, standing on the bed: (n, 2) [m] and kinds (n, 2)."""
+    rows, kinds = [np.zeros((0, 2))], [labels(0, FACE)]
+    for number, (low, high) in enumerate(gates.faces(case)):
         columns = filling.between(case, low, high)
         for x in columns:
             rows.append(_stack(case, x, case.tank.height))
             outer = x in (columns[0], columns[-1])
-            kinds.append(np.full(len(rows[-1]), GATE if outer else GATE_DUMMY, np.int8))
-    plates, kind = np.vstack(rows), np.concatenate(kinds)
+            role = FACE if outer else FILLER
+            kinds.append(labels(len(rows[-1]), role, gates.first(case) + number))
+    plates, kind = np.vstack(rows), np.vstack(kinds)
     free = _clear(case, plates, floor)
     return plates[free], kind[free]
 
@@ -189,12 +188,12 @@ def _repeat_across(case, solid, kind, backmost):
         if outside <= 0:
             water = sections[row % len(sections)]
             wet = flat | ((water[:, 2] < y) & (y < water[:, 3]))
-            _add(positions, kinds, water[wet, :2], FLUID, y)
+            _add(positions, kinds, water[wet, :2], labels(np.count_nonzero(wet), FLUID, WATER), y)
             _add(positions, kinds, solid, kind, y)
         else:
             side, side_kind = _side_wall(case, solid, kind, outside, backmost)
             _add(positions, kinds, side, side_kind, y)
-    return np.vstack(positions), np.concatenate(kinds)
+    return np.vstack(positions), np.vstack(kinds)
 
 
 def _side_wall(case, solid, kind, outside, backmost):
@@ -203,21 +202,20 @@ def _side_wall(case, solid, kind, outside, backmost):
     behind = np.ceil(-backmost / spacing) * spacing if case.wavemaker.type != "none" else 0.0
     x = filling.between(case, -behind - layers * spacing, effective_length(case) + layers * spacing)
     section = np.vstack([_stack(case, place, case.tank.height) for place in x])
-    fixed = (kind == WALL) | (kind == DUMMY)
     below = solid[:, 1] < beds.elevation(case.tank.bed, solid[:, 0])
-    floor = solid[fixed & below]
+    below &= kind[:, 1] == TANK
+    floor = solid[below]
     inside = (section[:, 0] > -behind - spacing) & (
         section[:, 0] < effective_length(case) + spacing
     )
     first = outside == 1
-    kinds = np.where(inside & first, WALL, DUMMY)
-    floor_kind = np.where((kind[fixed & below] == WALL) & first, WALL, DUMMY)
-    return np.vstack([section, floor]), np.concatenate([kinds, floor_kind])
+    faces = np.concatenate([inside, kind[below, 0] == FACE]) & first
+    return np.vstack([section, floor]), labels(len(faces), np.where(faces, FACE, FILLER))
 
 
 def _add(positions, kinds, section, kind, y):
     positions.append(np.column_stack([section[:, 0], np.full(len(section), y), section[:, 1]]))
-    kinds.append(np.broadcast_to(kind, len(section)).astype(np.int8))
+    kinds.append(kind)
 
 
 def _set_hydrostatic(case, particles):

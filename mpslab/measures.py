@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from mpslab import scatter, vtkhdf
+from mpslab.kinds import FLUID, WALL
 from mpslab.overturning import JET, find_crest
-from mpslab.particles import FLUID, WALL
 from mpslab.pictures import read_case, read_table
 from mpslab.snapshots import middle_slice
 from mpslab.terminal import unbroken

@@ -12,7 +12,7 @@ import numpy as np
 import scipy
 
 from mpslab import bed as beds
-from mpslab.particles import DUMMY, GATE, WALL
+from mpslab.particles import FACE, FILLER, FIRST_SOLID, PISTON, TANK
 
 NEAR = 2.0  # spacings: water no further off than this presses on a wall at t = 0
 
@@ -50,9 +50,9 @@ def around(case, start, end):
 
 
 def fill(case, solid):
-    """Particles of the obstacles among the others: positions (n, 3) [m] and kinds (n,) int8.
+    """Particles of the obstacles among the others: positions (n, 3) [m], and role and body (n, 2).
 
-    The outermost are wall, all inside are dummy.
+    The outermost are faces, all inside are fillers.
 
     Parameters
     ----------
@@ -67,21 +67,28 @@ def fill(case, solid):
     position = place * spacing
     free = position[:, 2] > beds.elevation(case.tank.bed, position[:, 0])
     free &= scipy.spatial.cKDTree(solid).query(position)[0] > beds.CLOSEST * spacing
-    return position[free], np.where(_meets_water(case, place[free]), WALL, DUMMY).astype(np.int8)
+    role = np.where(_meets_water(case, place[free]), FACE, FILLER)
+    body = FIRST_SOLID + _holder(case, place[free])
+    return position[free], np.column_stack([role, body]).astype(np.int16)
 
 
 def cover(case, position, kind):
-    """Make dummies of the wall particles that obstacles stand against, in place."""
+    """Make fillers of the faces of the tank that obstacles stand against, in place.
+
+    kind : (n, 2) int16, role and body
+    """
     place = position / case.particles.spacing
-    rows = np.flatnonzero((kind == WALL) & _inside(case, place))
-    kind[rows[~_meets_water(case, place[rows])]] = DUMMY
+    rows = np.flatnonzero((kind[:, 0] == FACE) & (kind[:, 1] == TANK) & _inside(case, place))
+    kind[rows[~_meets_water(case, place[rows])], 0] = FILLER
 
 
 def press(case, particles):
     """Give obstacles and gates the hydrostatic pressure of the water next to them, in place."""
     spacing, fluid = case.particles.spacing, np.flatnonzero(particles.fluid)
-    wall = (particles.kind == WALL) & _inside(case, particles.position / spacing)
-    rows, position = np.flatnonzero(wall | (particles.kind == GATE)), particles.position
+    wall = (particles.body != PISTON) & _inside(case, particles.position / spacing)
+    gate = particles.body >= FIRST_SOLID + len(case.obstacle)
+    rows = np.flatnonzero((particles.role == FACE) & (wall | gate))
+    position = particles.position
     off, near = scipy.spatial.cKDTree(position[fluid]).query(position[rows])
     near = fluid[near]
     rise = position[near, 2] - position[rows, 2]

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from mpslab.headings import heading
-from mpslab.particles import DUMMY, GATE, GATE_DUMMY, PISTON, PISTON_DUMMY, WALL
+from mpslab.kinds import DUMMY, GATE, GATE_DUMMY, PISTON, PISTON_DUMMY, WALL
 
 # Colours of solids: that of their faces, and that of the particles behind them.
 SOLIDS = {

@@ -4,14 +4,15 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-FLUID, WALL, DUMMY, PISTON, PISTON_DUMMY, GATE, GATE_DUMMY = range(7)
-KIND_NAMES = ("fluid", "wall", "dummy", "piston", "piston dummy", "gate",
-              "gate dummy")  # fmt: skip
+# Roles: what a particle is to the equations.
+FLUID, FACE, FILLER = range(3)
+# Bodies: whose it is. After these come the solids of the case, obstacles before gates.
+WATER, TANK, PISTON, FIRST_SOLID = range(4)
 
 
-def carries_pressure(kind):
-    """Mask of the kinds with a pressure of their own: (n,) int8 -> (n,) bool."""
-    return (kind == FLUID) | (kind == WALL) | (kind == PISTON) | (kind == GATE)
+def carries_pressure(role):
+    """Mask of the roles with a pressure of their own: (n,) int8 -> (n,) bool."""
+    return role != FILLER
 
 
 def on_axes(mask):
@@ -27,9 +28,11 @@ class ParticleSet:
     ----------
     gid : (n,) int64
         Number of a particle; it never changes.
-    kind : (n,) int8
-        FLUID, WALL (first layer, carries pressure), DUMMY (layers behind it, fill the number
-        density only), PISTON and PISTON_DUMMY, GATE and GATE_DUMMY (the same two, moving).
+    role : (n,) int8
+        FLUID, FACE (first layer of a solid, carries a pressure) or FILLER (layers behind it, fill
+        the number density only).
+    body : (n,) int16
+        WATER, TANK (bed and walls), PISTON, or the number of a solid from FIRST_SOLID on.
     position : (n, 3) float64 [m]
     velocity : (n, 3) float64 [m/s]
     pressure : (n,) float64 [Pa]
@@ -39,7 +42,8 @@ class ParticleSet:
     """
 
     gid: np.ndarray
-    kind: np.ndarray
+    role: np.ndarray
+    body: np.ndarray
     position: np.ndarray
     velocity: np.ndarray
     pressure: np.ndarray
@@ -52,17 +56,17 @@ class ParticleSet:
     @property
     def fluid(self):
         """Mask of the fluid particles, (n,) bool."""
-        return self.kind == FLUID
+        return self.role == FLUID
 
     @property
     def carries_pressure(self):
         """Mask of the particles with a pressure of their own, (n,) bool."""
-        return carries_pressure(self.kind)
+        return carries_pressure(self.role)
 
     @property
     def moves_with_piston(self):
         """Mask of the particles with the motion of the wavemaker, (n,) bool."""
-        return (self.kind == PISTON) | (self.kind == PISTON_DUMMY)
+        return self.body == PISTON
 
     def take(self, rows):
         """The particles of a mask, index or slice, as a new set."""
@@ -75,12 +79,14 @@ def no_particles():
     return make_particles(np.zeros((0, 3)), np.zeros(0))
 
 
-def make_particles(position, kind):
-    """Particles at rest, numbered in the order given."""
-    n = len(position)
+def make_particles(position, role, body=None):
+    """Particles at rest, numbered in the order given; without bodies, of water and tank."""
+    n, role = len(position), np.asarray(role, np.int8)
+    body = np.where(role == FLUID, WATER, TANK) if body is None else body
     return ParticleSet(
         gid=np.arange(n, dtype=np.int64),
-        kind=np.asarray(kind, np.int8),
+        role=role,
+        body=np.asarray(body, np.int16),
         position=np.ascontiguousarray(position, float),
         velocity=np.zeros((n, 3)),
         pressure=np.zeros(n),

@@ -4,7 +4,7 @@ import numpy as np
 
 from mpslab import plugins
 from mpslab.keys import CaseError, shown
-from mpslab.particles import DUMMY, WALL
+from mpslab.particles import FACE, FILLER, TANK
 
 ROOM = 3  # spacings that are left between the piston and an obstacle or a gate
 
@@ -85,7 +85,8 @@ class Piston:
         self.gid = particles.gid[moving]
         self.rest = particles.position[moving, 0].copy()
         near = paddle.farthest + spacing if paddle else -np.inf
-        bed = (particles.kind == WALL) & (particles.position[:, 0] < near)
+        bed = (particles.role == FACE) & (particles.body == TANK)
+        bed &= particles.position[:, 0] < near
         self.bed = particles.gid[bed]
 
     def share_out(self, comm):
@@ -115,5 +116,5 @@ class Piston:
         """Bed behind the face carries no pressure: else it would tie the corner to p = 0."""
         rows = np.flatnonzero(np.isin(particles.gid, self.bed, kind="sort"))
         behind = particles.position[rows, 0] < face - self.margin
-        particles.kind[rows] = np.where(behind, DUMMY, WALL)
+        particles.role[rows] = np.where(behind, FILLER, FACE)
         particles.pressure[rows[behind]] = 0.0

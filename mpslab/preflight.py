@@ -10,8 +10,8 @@ from mpslab import bed as beds
 from mpslab.cases.doubts import warnings
 from mpslab.cases.sizes import sizes
 from mpslab.census import census
+from mpslab.kinds import KIND_NAMES
 from mpslab.output import PROBE_QUANTITIES, STEP_COLUMNS
-from mpslab.particles import KIND_NAMES
 from mpslab.piston import make_paddle
 from mpslab.step import slabs_of, solver_of
 

@@ -11,7 +11,7 @@ FAR = 100_000  # cells; farther away all places are in the same one
 
 
 def assemble(
-    particles, neighbors, stencil, pair_terms, density, source, kind=None, surface_pull=None,
+    particles, neighbors, stencil, pair_terms, density, source, role=None, surface_pull=None,
     domain=None,
 ):
     """System of the particles that carry a pressure and are not at the surface.
@@ -26,7 +26,7 @@ def assemble(
     density : float [kg/m3]
     source : (n,) float64 [1/s2]
         Right-hand side for all particles.
-    kind : (n,) int8, optional
+    role : (n,) int8, optional
         Kinds that stand in for those of the particles.
     surface_pull : (n,) float64, optional
         Added to the diagonal; with it, surface particles have rows as all others.
@@ -39,9 +39,9 @@ def assemble(
     rows : (m,) int
         Particle of each row.
     """
-    kind = particles.kind if kind is None else kind
+    role = particles.role if role is None else role
     inner = particles.surface == 0 if surface_pull is None else True
-    rows = np.flatnonzero(carries_pressure(kind) & inner).astype(np.int32)
+    rows = np.flatnonzero(carries_pressure(role) & inner).astype(np.int32)
     first = None
     if domain:
         rows, first = _by_slab(rows, domain.slab[rows], domain.slabs.count)
@@ -51,7 +51,7 @@ def assemble(
     row, diagonal, excess = np.empty(m + 1, np.int32), np.empty(m), np.empty(m)
     column, value = np.empty(most, np.int32), np.empty(most, np.float32)
     entries = poisson.assemble(
-        particles.position, kind, neighbors.indptr, neighbors.indices, rows, unknown,
+        particles.position, role, neighbors.indptr, neighbors.indices, rows, unknown,
         stencil, pair_terms, 1.0 / density, row, column, value, diagonal, excess,
     )  # fmt: skip
     column, value = column[:entries], value[:entries]

@@ -7,8 +7,8 @@ import numpy as np
 
 from mpslab import checkpoint, diagnostics, gauges
 from mpslab.journal import journal_of
+from mpslab.kinds import KIND_NAMES, kinds_of
 from mpslab.output import PROBE_QUANTITIES, STEP_COLUMNS
-from mpslab.particles import KIND_NAMES
 from mpslab.series import Series
 
 REACH = 3.0  # spacings: no instrument sees further along the tank
@@ -138,11 +138,11 @@ class Record:
         """Water level of each gauge, and pressure and velocity of each probe."""
         spacing, width = self.flow.stencil.spacing, self.flow.stencil.width
         levels = [
-            gauges.surface_elevation(p.position, p.kind, spacing, g.x, g.y, width)
+            gauges.surface_elevation(p.position, p.role, spacing, g.x, g.y, width)
             for g in self.case.gauge
         ]
         values = [
-            gauges.probe(p.position, p.velocity, p.pressure, p.kind, spacing,
+            gauges.probe(p.position, p.velocity, p.pressure, p.role, spacing,
                          (q.x, q.y, q.z), width).tolist()
             for q in self.case.probe
         ]  # fmt: skip
@@ -156,7 +156,8 @@ class Record:
         """Write the particles for ParaView."""
         if self.folder:
             particles = self.flow.domain.gather(self.flow.particles)
-            self._write(lambda: self.frames.append(self.flow.time, particles))
+            kind = kinds_of(self.case, particles)
+            self._write(lambda: self.frames.append(self.flow.time, particles, kind))
 
     def add_lost(self, step, lost):
         """Write down this rank's particles that left the tank, before they are taken out.
@@ -188,7 +189,8 @@ class Record:
     def write_run(self, outcome, reason=None):
         """Write `run.json`."""
         if self.folder:
-            kinds = np.bincount(self.flow.particles.kind, minlength=len(KIND_NAMES))
+            kinds = kinds_of(self.case, self.flow.particles)
+            kinds = np.bincount(kinds, minlength=len(KIND_NAMES))
             kinds = np.sum(self.flow.domain.from_all(kinds), axis=0)
             self.counts = dict(zip(KIND_NAMES, kinds, strict=True))
             self._write(lambda: self._write_run(outcome, reason))

@@ -10,7 +10,7 @@ import numpy as np
 
 from mpslab import correction, filling, step
 from mpslab.bed import CLOSEST
-from mpslab.particles import DUMMY, joined, make_particles
+from mpslab.particles import FILLER, joined, make_particles
 from mpslab.stabilisers import corrected_shifting
 
 SHAKE = 0.1  # spacings: a random displacement, from which the water finds its order
@@ -67,7 +67,7 @@ def _close(flow, count):
     mine = np.flatnonzero((domain.begin <= slab) & (slab < domain.end))
     apart = cKDTree(solid).query(sites[mine])[0] if len(solid) else np.inf
     mine = mine[apart > CLOSEST * flow.stencil.spacing]
-    lid = make_particles(sites[mine], np.full(len(mine), DUMMY))
+    lid = make_particles(sites[mine], np.full(len(mine), FILLER))
     lid.gid = count + mine
     flow.particles = joined(flow.particles, lid)
 

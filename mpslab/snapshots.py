@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mpslab import vtkhdf
+from mpslab.kinds import FLUID
 from mpslab.overturning import find_front
 from mpslab.panels import draw_panels
-from mpslab.particles import FLUID
 
 PICTURES = 6
 BREAKER_FRAMES = 4

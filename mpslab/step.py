@@ -248,10 +248,10 @@ def _assemble(flow, graded, pull, dt):
     particles, neighbors, rho = flow.particles, flow.neighbors, flow.case.fluid.density
     stencil, terms = flow.laplacian_stencil, flow.pair_terms
     velocity, n = particles.velocity, particles.number_density
-    kind = towards_zero = None
+    role = towards_zero = None
     if flow.extrapolates:
         velocity = walls.predicted_velocity(particles, pull, dt)
-        kind = walls.outside_system(particles)
+        role = walls.outside_system(particles)
     if graded is not None:
         towards_zero = surface.surface_pull(
             particles, graded, flow.stencil, stencil, terms, rho
@@ -259,7 +259,7 @@ def _assemble(flow, graded, pull, dt):
         n = surface.filled_density(n, graded, flow.stencil)
     right = np.empty(len(particles))
     flow.source.source(
-        particles.position, velocity, particles.kind, n, neighbors.indptr, neighbors.indices,
+        particles.position, velocity, particles.role, n, neighbors.indptr, neighbors.indices,
         flow.stencil, flow.correction, dt, density_rate(flow.case, flow.time),
         flow.case.scheme, right,
     )  # fmt: skip
@@ -267,7 +267,7 @@ def _assemble(flow, graded, pull, dt):
         right += walls.flux(particles, neighbors, stencil, terms, pull)
     domain = flow.domain if flow.solver.BY_SLAB else None
     return pressure.assemble(
-        particles, neighbors, stencil, terms, rho, right, kind, towards_zero, domain
+        particles, neighbors, stencil, terms, rho, right, role, towards_zero, domain
     )
 
 
@@ -290,10 +290,10 @@ def _correct(flow, start, dt):
     """u = u* - (dt/rho) grad p and r = start + u dt, then keep the particles in order."""
     particles, neighbors = flow.particles, flow.neighbors
     before = particles.position.copy()
-    kind = walls.with_pressure(particles) if flow.extrapolates else particles.kind
+    role = walls.with_pressure(particles) if flow.extrapolates else particles.role
     change = np.zeros_like(particles.velocity)
     flow.gradient.gradient(
-        particles.position, particles.pressure, kind, neighbors.indptr, neighbors.indices,
+        particles.position, particles.pressure, role, neighbors.indptr, neighbors.indices,
         flow.stencil, flow.correction, change,
     )  # fmt: skip
     particles.velocity -= (dt / flow.case.fluid.density) * change

@@ -28,15 +28,15 @@ class ParticleSeries:
     path : str or Path
         The file; an existing one is appended to (see `truncate`).
     fields : iterable of str
-        Names of the arrays of the ParticleSet to write beside the positions. ``kind`` is always
-        written: nothing else tells water from wall.
+        Names of the arrays of the ParticleSet to write beside the positions. ``kind`` and ``body``
+        are always written: nothing else tells water from wall, and one solid from another.
     """
 
     def __init__(self, path, fields):
         self.path = Path(path)
-        self.fields = tuple(dict.fromkeys(("kind", *fields)))
+        self.fields = tuple(dict.fromkeys(("kind", "body", *fields)))
 
-    def append(self, time, particles):
+    def append(self, time, particles, kind=None):
         """Add a frame; floating-point arrays are written in single precision.
 
         Parameters
@@ -45,11 +45,15 @@ class ParticleSeries:
             Time of the frame [s], above that of the last one.
         particles : ParticleSet
             The particles, which may be fewer or more than in the last frame.
+        kind : (n,) int8, optional
+            Their kinds (`mpslab.kinds`); left out, those of water and tank alone.
         """
+        arrays = {"kind": particles.role if kind is None else kind}
+        arrays |= {name: getattr(particles, name) for name in self.fields if name != "kind"}
         with changing(self.path) as held, h5py.File(held, "r+" if held.size else "w") as file:
             root = _root(file)
             _append_step(root, time, [*self.fields])
-            _append_points(root, particles, self.fields)
+            _append_points(root, particles.position, arrays)
             # The count comes last: it is what makes the frame part of the series.
             root["Steps"].attrs["NSteps"] += 1
 
@@ -81,13 +85,13 @@ def _append_step(root, time, fields):
         _extend(steps, f"PointDataOffsets/{name}", np.array([begin]))
 
 
-def _append_points(root, particles, fields):
+def _append_points(root, position, arrays):
     """The arrays of a new frame: one point and one vertex for each particle."""
-    n = len(particles.position)
+    n = len(position)
     _extend(root, "NumberOfPoints", np.array([n]))
-    _extend(root, "Points", particles.position.astype(np.float32))
-    for name in fields:
-        _extend(root, f"PointData/{name}", _narrow(getattr(particles, name)))
+    _extend(root, "Points", position.astype(np.float32))
+    for name, array in arrays.items():
+        _extend(root, f"PointData/{name}", _narrow(array))
     for family, count in zip(FAMILIES, (n, 0, 0, 0), strict=True):
         _extend(root, f"{family}/NumberOfCells", np.array([count]))
         _extend(root, f"{family}/NumberOfConnectivityIds", np.array([count]))

@@ -9,7 +9,7 @@ water on one side only, and give the bed half the pressure difference of a layer
 import numpy as np
 
 from mpslab.kernels import walls as kernels
-from mpslab.particles import DUMMY, FLUID, WALL, on_axes
+from mpslab.particles import FACE, FILLER, FLUID, on_axes
 
 
 def pull(particles, before, gravity, dt):
@@ -31,29 +31,29 @@ def pull(particles, before, gravity, dt):
 
 def predicted_velocity(particles, pull_, dt):
     """u* of all particles: solids, too, before the pressure acts, u* = u_wall + (g - a) dt."""
-    return particles.velocity + dt * pull_ * on_axes(particles.kind != FLUID)
+    return particles.velocity + dt * pull_ * on_axes(particles.role != FLUID)
 
 
 def outside_system(particles):
-    """Kinds under which solids take no part in the matrix, (n,) int8."""
-    return np.where(particles.fluid, FLUID, DUMMY).astype(np.int8)
+    """Roles under which solids take no part in the matrix, (n,) int8."""
+    return np.where(particles.fluid, FLUID, FILLER).astype(np.int8)
 
 
 def with_pressure(particles):
-    """Kinds under which all solids act with their pressure, (n,) int8."""
-    return np.where(particles.fluid, FLUID, WALL).astype(np.int8)
+    """Roles under which all solids act with their pressure, (n,) int8."""
+    return np.where(particles.fluid, FLUID, FACE).astype(np.int8)
 
 
 def flux(particles, neighbors, stencil, pair_terms, pull_):
     """What the walls' known differences of pressure add to the right-hand side, (n,) [1/s2]."""
     out = np.empty(len(particles))
-    kernels.flux(particles.position, particles.kind, neighbors.indptr, neighbors.indices,
+    kernels.flux(particles.position, particles.role, neighbors.indptr, neighbors.indices,
                  stencil, pair_terms, pull_, out)  # fmt: skip
     return out
 
 
 def fill(particles, neighbors, stencil, density, pull_, clip):
     """Give the solids the pressure of the water in front of them, in place; with `clip` not < 0."""
-    kernels.extrapolate(particles.position, particles.kind, neighbors.indptr, neighbors.indices,
+    kernels.extrapolate(particles.position, particles.role, neighbors.indptr, neighbors.indices,
                         stencil, density, pull_, clip, particles.pressure,
                         np.empty(len(particles)))  # fmt: skip

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from mpslab.kinds import PISTON as PISTON_FACE
 from mpslab.output import RunFolder
-from mpslab.particles import DUMMY, FLUID, PISTON, PISTON_DUMMY, WALL, make_particles
+from mpslab.particles import FACE, FILLER, FLUID, PISTON, TANK, WATER, make_particles
 from mpslab.vtkhdf import ParticleSeries
 
 LENGTH, DEPTH = 0.8, 0.04
@@ -72,19 +73,19 @@ def tank(time, spacing, breaks=True):
     height = 0.02 * min(time / 0.5, 1.0)
     level = DEPTH + height * np.exp(-(((x - crest) / 0.07) ** 2))
     bed, floor = bed_height(x), 4 * spacing
-    kind = np.full(len(x), -1)
-    kind[(z > bed) & (z < level) & (x > 0) & (x < LENGTH)] = FLUID
+    role = np.full(len(x), -1)
+    role[(z > bed) & (z < level) & (x > 0) & (x < LENGTH)] = FLUID
     if breaks and time > 1.0:
-        kind[_jet(x - crest - 0.04, z - DEPTH - 0.012, 0.10 * (time - 0.9))] = FLUID
+        role[_jet(x - crest - 0.04, z - DEPTH - 0.012, 0.10 * (time - 0.9))] = FLUID
     wall = (z < bed) | (x < 0) | (x > LENGTH)
     depth_in_wall = np.maximum(np.maximum(bed - z, -x), x - LENGTH)
-    kind[wall & (depth_in_wall < floor)] = DUMMY
-    kind[wall & (depth_in_wall < spacing)] = WALL
-    piston = wall & (x < 0) & (z > 0)
-    kind[piston & (kind == WALL)] = PISTON
-    kind[piston & (kind == DUMMY)] = PISTON_DUMMY
-    keep = kind >= 0
-    particles = make_particles(np.column_stack([x, 0 * x, z])[keep], kind[keep])
+    role[wall & (depth_in_wall < floor)] = FILLER
+    role[wall & (depth_in_wall < spacing)] = FACE
+    body = np.where(role == FLUID, WATER, TANK)
+    body[wall & (x < 0) & (z > 0)] = PISTON
+    keep = role >= 0
+    place = np.column_stack([x, 0 * x, z])[keep]
+    particles = make_particles(place, role[keep], body[keep])
     swirl = np.exp(-(((x - crest) / 0.07) ** 2))[keep] * particles.fluid * (0.5 + 10 * z[keep])
     particles.velocity[:, 0] = swirl
     return particles
@@ -94,6 +95,12 @@ def _jet(x, z, reach):
     """Sickle ahead of the crest, over air."""
     tongue = 0.010 - 6.0 * np.maximum(x, 0) ** 2
     return (x > -0.04) & (x < reach) & (z < tongue) & (z > tongue - 0.008)
+
+
+def kinds_of(particles):
+    """Kinds of the particles of the tank, (n,) int8."""
+    beyond = PISTON_FACE - FACE
+    return (particles.role + beyond * (particles.body == PISTON)).astype(np.int8)
 
 
 def write_run(path, spacing=0.004, frames=26, breaks=True, pictures=(), width=0.0):
@@ -106,7 +113,8 @@ def write_run(path, spacing=0.004, frames=26, breaks=True, pictures=(), width=0.
     )
     series = ParticleSeries(folder.particles, ["velocity", "pressure"])
     for time in np.linspace(0, 1.25, frames):
-        series.append(time, tank(time, spacing, breaks))
+        particles = tank(time, spacing, breaks)
+        series.append(time, particles, kinds_of(particles))
     _write_tables(folder)
     return folder
 

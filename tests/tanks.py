@@ -93,9 +93,9 @@ def neighbors_of(position, radius, width=0.0, active=None):
     return NeighborList().build(np.ascontiguousarray(position), radius, width, active)
 
 
-def matrices_of(position, kind, found, stencil):
+def matrices_of(position, role, found, stencil):
     """Correction matrices at positions."""
-    return correction.matrices(particles_at(position, kind), found, stencil)
+    return correction.matrices(particles_at(position, role), found, stencil)
 
 
 def closest(position):
@@ -113,9 +113,9 @@ def number_density_over_n0(case, particles, radius=2.1):
     return n / stencil.n0
 
 
-def particles_at(position, kind=0):
-    """Particles at rest, all fluid unless `kind` says something else."""
-    return make_particles(position, np.broadcast_to(kind, len(position)))
+def particles_at(position, role=0):
+    """Particles at rest, all fluid unless `role` says something else."""
+    return make_particles(position, np.broadcast_to(role, len(position)))
 
 
 def scheme(**changes):

@@ -6,7 +6,7 @@ from tanks import cloud, flow_of, make_case, matrices_of, neighbors_of, run
 
 from mpslab import plugins
 from mpslab.kernels import density, divergence, moments, repulsion, sparse, viscosity
-from mpslab.particles import FLUID, WALL
+from mpslab.particles import FACE, FLUID
 from mpslab.stencil import make_stencil
 
 SHIFTS = range(8, 64, 8)  # bytes; 64 is a line of the cache
@@ -91,13 +91,13 @@ def test_particle_sums_do_not_depend_on_the_address():
 def test_sums_with_matrices_do_not_depend_on_the_address():
     position = cloud(3, 500, 1)
     velocity = np.random.default_rng(4).normal(size=position.shape)
-    kind = np.random.default_rng(5).choice([FLUID] * 4 + [WALL], 500).astype(np.int8)
+    role = np.random.default_rng(5).choice([FLUID] * 4 + [FACE], 500).astype(np.int8)
     surface = (position[:, 2] > 2.0).astype(np.uint8)
     found, stencil = neighbors_of(position, 2.1), make_stencil(3, 1.0, 2.1)
 
     def sums(by):
         c, rate, drag, move = (np.empty((500, n)) for n in (6, 1, 3, 3))
-        x, u, k = shifted(position, by), shifted(velocity, by), shifted(kind, by)
+        x, u, k = shifted(position, by), shifted(velocity, by), shifted(role, by)
         rows = shifted(found.indptr, by), shifted(found.indices, by)
         moments.correction_matrix(x, k, *rows, stencil, True, 0.6, c)
         c = shifted(c, by)
@@ -105,7 +105,7 @@ def test_sums_with_matrices_do_not_depend_on_the_address():
         viscosity.viscous_acceleration(x, u, k, *rows, stencil, 1.0, True, drag)
         repulsion.shifting(x, k, shifted(surface, by), *rows, stencil, c, 1.0, 0.1, move)
         assert np.any(move)
-        return b"".join(a.tobytes() for a in (c, rate, drag[kind == FLUID], move))
+        return b"".join(a.tobytes() for a in (c, rate, drag[role == FLUID], move))
 
     assert len({sums(by) for by in (0, *SHIFTS)}) == 1
 
@@ -114,14 +114,14 @@ def test_sums_with_matrices_do_not_depend_on_the_address():
 def test_gradients_do_not_depend_on_the_address(name):
     position = cloud(3, 500, 1)
     pressure = np.random.default_rng(5).uniform(size=500)
-    kind = np.zeros(500, np.int8)
+    role = np.zeros(500, np.int8)
     found, stencil = neighbors_of(position, 2.1), make_stencil(3, 1.0, 2.1)
-    c = matrices_of(position, kind, found, stencil)
+    c = matrices_of(position, role, found, stencil)
 
     def gradient(by):
         out = np.empty((500, 3))
         plugins.load("gradients", name).gradient(
-            shifted(position, by), shifted(pressure, by), shifted(kind, by),
+            shifted(position, by), shifted(pressure, by), shifted(role, by),
             shifted(found.indptr, by), shifted(found.indices, by), stencil, c, out,
         )  # fmt: skip
         return out.tobytes()

@@ -5,7 +5,7 @@ import pytest
 from tanks import flow_of, make_case, particles_at, run
 
 from mpslab import diagnostics
-from mpslab.particles import DUMMY, FLUID, WALL
+from mpslab.particles import FACE, FILLER, FLUID
 from mpslab.stencil import make_stencil
 
 DENSITY, GRAVITY = 1000.0, 9.81
@@ -13,7 +13,7 @@ DENSITY, GRAVITY = 1000.0, 9.81
 
 def two_and_a_wall():
     position = [[0.0, 0.0, 1.0], [0.0, 0.0, 3.0], [0.0, 0.0, 9.0]]
-    particles = particles_at(position, [FLUID, FLUID, WALL])
+    particles = particles_at(position, [FLUID, FLUID, FACE])
     particles.velocity[:] = [[3.0, 0.0, 4.0], [0.0, 1.0, 0.0], [7.0, 0.0, 0.0]]
     return particles
 
@@ -44,7 +44,7 @@ def test_volume_of_still_water_is_that_of_the_tank(width):
 
 def test_volume_grows_where_particles_spread():
     stencil = make_stencil(3, 1.0, 2.1)
-    particles = particles_at(np.zeros((3, 3)), [FLUID, FLUID, DUMMY])
+    particles = particles_at(np.zeros((3, 3)), [FLUID, FLUID, FILLER])
     particles.number_density[:] = [stencil.relaxed, 0.8 * stencil.relaxed, stencil.n0]
     assert diagnostics.volume(particles, stencil) == pytest.approx(1.0 + 1.25, rel=1e-14)
 

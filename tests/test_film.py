@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from PIL import Image
-from synthetic import tank, write_run
+from synthetic import kinds_of, tank, write_run
 
 from mpslab import film
 from mpslab.particles import make_particles
@@ -37,10 +37,12 @@ def solid(tmp_path_factory, flat):
         slices = [tank(time, SPACING) for _ in np.arange(0.0, WIDTH, SPACING)]
         for number, piece in enumerate(slices):
             piece.position[:, 1] = (number + 0.5) * SPACING
-        whole = make_particles(np.concatenate([p.position for p in slices]),
-                               np.concatenate([p.kind for p in slices]))  # fmt: skip
+        whole = make_particles(
+            *(np.concatenate([getattr(p, name) for p in slices])
+              for name in ("position", "role", "body"))
+        )  # fmt: skip
         whole.velocity[:] = np.concatenate([p.velocity for p in slices])
-        series.append(time, whole)
+        series.append(time, whole, kinds_of(whole))
     return folder
 
 

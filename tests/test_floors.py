@@ -16,8 +16,8 @@ FLOORS = {
     "deflation conjugate_gradient piston geometry filling correction obstacles "
     "gates friction census",
     2: "balance communicator headcount domain rebalance",
-    1: "particles neighbors stencil sparse slabs parameters scheme keys plugins bed paddle waves "
-    "breaking stopwatch files journal lock tables series memory",
+    1: "particles kinds neighbors stencil sparse slabs parameters scheme keys plugins bed paddle "
+    "waves breaking stopwatch files journal lock tables series memory",
     0: "kernels",
 }
 FLOOR_OF = {name: floor for floor, names in FLOORS.items() for name in names.split()}

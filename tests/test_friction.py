@@ -9,7 +9,7 @@ from mpslab import friction
 from mpslab.kernels import viscosity
 from mpslab.keys import CaseError
 from mpslab.parameters import Fluid, Scheme
-from mpslab.particles import FLUID, WALL, make_particles
+from mpslab.particles import FACE, FLUID, make_particles
 from mpslab.simulation import Simulation
 from mpslab.stencil import make_stencil
 
@@ -22,24 +22,24 @@ LINEAR = {
 ALL = np.array([[1.0, 2.0, -0.5], [3.0, -2.0, 0.7], [0.4, -1.1, 1.3]])
 
 
-def strain_rate(position, velocity, dim, kind=None, slip=True):
-    kind = np.zeros(len(position), np.int8) if kind is None else np.asarray(kind, np.int8)
+def strain_rate(position, velocity, dim, role=None, slip=True):
+    role = np.zeros(len(position), np.int8) if role is None else np.asarray(role, np.int8)
     stencil = make_stencil(dim, 1.0, 2.1)
     found = neighbors_of(position, stencil.radius)
-    c = matrices_of(position, kind, found, stencil)
+    c = matrices_of(position, role, found, stencil)
     out = np.full(len(position), np.nan)
     viscosity.strain_rate(
-        position, velocity, kind, found.indptr, found.indices, stencil, c, slip, out
+        position, velocity, role, found.indptr, found.indices, stencil, c, slip, out
     )
     return out
 
 
-def acceleration(position, velocity, dim, nu=0.0, slip=True, kind=FLUID):
-    particles = make_particles(position, np.broadcast_to(kind, len(position)))
+def acceleration(position, velocity, dim, nu=0.0, slip=True, role=FLUID):
+    particles = make_particles(position, np.broadcast_to(role, len(position)))
     particles.velocity[:] = velocity
     stencil = make_stencil(dim, 1.0, 2.1)
     found = neighbors_of(particles.position, stencil.radius)
-    c = matrices_of(particles.position, particles.kind, found, stencil)
+    c = matrices_of(particles.position, particles.role, found, stencil)
     scheme = Scheme(smagorinsky=CONSTANT, wall_slip=slip)
     return friction.acceleration(
         particles, found, (stencil, stencil), c, Fluid(viscosity=nu), scheme, lambda _: None
@@ -63,20 +63,20 @@ def test_strain_rate_in_3d_takes_all_components():
 
 
 def stream_along_a_wall():
-    """Position, velocity and kind of water at 2 m/s over a wall; the middle of its lowest layer."""
+    """Position, velocity and role of water at 2 m/s over a wall; the middle of its lowest layer."""
     position = lattice(2, 5)
-    kind = np.where(position[:, 2] < 0.0, WALL, FLUID)
+    role = np.where(position[:, 2] < 0.0, FACE, FLUID)
     velocity = np.zeros_like(position)
-    velocity[kind == FLUID, 0] = 2.0
+    velocity[role == FLUID, 0] = 2.0
     at_wall = (position[:, 2] == 0.0) & (np.abs(position[:, 0]) < 2.0)
-    return position, velocity, kind, at_wall
+    return position, velocity, role, at_wall
 
 
 def test_strain_rate_sees_the_wall_only_without_slip():
-    position, velocity, kind, at_wall = stream_along_a_wall()
-    assert np.all(strain_rate(position, velocity, 2, kind, slip=True)[at_wall] < 1e-12)
-    assert np.all(strain_rate(position, velocity, 2, kind, slip=False)[at_wall] > 0.5)
-    assert np.all(strain_rate(position, velocity, 2, kind, slip=False)[kind == WALL] == 0.0)
+    position, velocity, role, at_wall = stream_along_a_wall()
+    assert np.all(strain_rate(position, velocity, 2, role, slip=True)[at_wall] < 1e-12)
+    assert np.all(strain_rate(position, velocity, 2, role, slip=False)[at_wall] > 0.5)
+    assert np.all(strain_rate(position, velocity, 2, role, slip=False)[role == FACE] == 0.0)
 
 
 @pytest.mark.parametrize("dim", [2, 3])
@@ -95,11 +95,11 @@ def test_molecular_and_eddy_viscosity_add_up():
     position = cloud(2, 400, 4, jitter=0.2)
     velocity = np.random.default_rng(5).normal(size=position.shape) * [1, 0, 1]
     both, eddy = (acceleration(position, velocity, 2, nu) for nu in (0.3, 0.0))
-    kind, out = np.zeros(len(position), np.int8), np.zeros_like(position)
+    role, out = np.zeros(len(position), np.int8), np.zeros_like(position)
     stencil = make_stencil(2, 1.0, 2.1)
     found = neighbors_of(position, stencil.radius)
     viscosity.viscous_acceleration(
-        position, velocity, kind, found.indptr, found.indices, stencil, 0.3, True, out
+        position, velocity, role, found.indptr, found.indices, stencil, 0.3, True, out
     )
     np.testing.assert_allclose(both, eddy + out, atol=1e-12)
 
@@ -115,11 +115,11 @@ def test_eddies_keep_momentum_and_lose_energy(dim):
 
 
 def test_walls_brake_the_water_by_its_own_eddies():
-    position, velocity, kind, at_wall = stream_along_a_wall()
-    assert np.all(acceleration(position, velocity, 2, slip=True, kind=kind)[at_wall] == 0.0)
-    rough = acceleration(position, velocity, 2, slip=False, kind=kind)
+    position, velocity, role, at_wall = stream_along_a_wall()
+    assert np.all(acceleration(position, velocity, 2, slip=True, role=role)[at_wall] == 0.0)
+    rough = acceleration(position, velocity, 2, slip=False, role=role)
     assert np.all(rough[at_wall, 0] < 0.0)
-    assert np.all(rough[kind == WALL] == 0.0)
+    assert np.all(rough[role == FACE] == 0.0)
 
 
 STREAM = {

@@ -11,7 +11,7 @@ from mpslab.cases import dumps
 from mpslab.cases.reader import loads
 from mpslab.gauges import probe
 from mpslab.keys import CaseError
-from mpslab.particles import GATE, GATE_DUMMY
+from mpslab.particles import FACE, FILLER, FIRST_SOLID
 from mpslab.piston import make_paddle
 from mpslab.preflight import preflight
 from mpslab.simulation import Simulation
@@ -35,7 +35,7 @@ def gate(x=0.03, speed=1.0, **more):
 
 
 def is_gate(particles):
-    return (particles.kind == GATE) | (particles.kind == GATE_DUMMY)
+    return particles.body >= FIRST_SOLID
 
 
 # Where the particles stand
@@ -76,7 +76,8 @@ def test_gate_on_a_slope_is_clear_of_the_bed():
 
 def test_gate_starts_with_the_pressure_of_the_water_beside_it():
     particles = geometry.build_particles(tank_with(gate()))
-    first = (particles.kind == GATE) & (particles.position[:, 0] < 0.03 + D0)
+    first = is_gate(particles) & (particles.role == FACE)
+    first &= (particles.position[:, 0] < 0.03 + D0)
     exact = WEIGHT * np.maximum(0.03 - particles.position[first, 2], 0.0)
     np.testing.assert_allclose(particles.pressure[first], exact, atol=1e-9)
 
@@ -133,7 +134,7 @@ def test_closed_gate_holds_the_water_and_bears_its_weight(changes, weightless):
     assert x[x[:, 0] > 0.03, 2].max() < 0.01
     assert np.sqrt(np.mean(p.velocity[p.fluid] ** 2)) < 0.02
     for place, level in ((0.03, 0.03), (0.038, 0.01)):
-        found = probe(p.position, p.velocity, p.pressure, p.kind, D0, (place, 0.0, 0.005))[0]
+        found = probe(p.position, p.velocity, p.pressure, p.role, D0, (place, 0.0, 0.005))[0]
         assert found == pytest.approx(WEIGHT * (level - weightless - 0.005), rel=0.06)
 
 
@@ -153,7 +154,7 @@ def test_run_with_a_gate_goes_on_from_its_checkpoint_as_if_it_had_not_stopped(tm
     whole = Simulation(case).run()
     Simulation(case, tmp_path / "cut").run(until=0.01)
     resumed = Simulation.resume(tmp_path / "cut").run()
-    for name in ("position", "velocity", "pressure", "kind"):
+    for name in ("position", "velocity", "pressure", "role"):
         np.testing.assert_array_equal(
             getattr(resumed.particles, name), getattr(whole.particles, name)
         )
@@ -242,7 +243,7 @@ def test_gate_of_unknowns_keeps_the_pressure_of_its_two_sides_apart():
     case = tank_with(gate(opens=1.0), water=[LEFT], **{**CLASSIC, "scheme.gradient": "gc"})
     p = run(flow_of(case), 50, DT).particles
     inner = (p.position[:, 0] > 0.032) & (p.position[:, 0] < 0.036) & (p.position[:, 2] > 0.0)
-    assert np.all(p.kind[inner] == GATE_DUMMY)
-    dry = (p.kind == GATE) & (p.position[:, 0] > 0.036)
+    assert np.all(p.role[inner] == FILLER)
+    dry = is_gate(p) & (p.role == FACE) & (p.position[:, 0] > 0.036)
     assert np.count_nonzero(dry) == 20
     assert np.all(p.pressure[dry] == 0.0)

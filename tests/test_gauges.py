@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mpslab.gauges import probe, surface_elevation
-from mpslab.particles import DUMMY, FLUID, PISTON, WALL
+from mpslab.particles import FACE, FILLER, FLUID
 
 D0 = 0.002
 TOP = 20 * D0
@@ -23,9 +23,9 @@ def still_water(ny=0):
     return lattice(40, ny, 20, x0=-20)
 
 
-def elevation(position, x=0.0, y=0.0, kind=None, width=0.0):
-    kind = np.zeros(len(position), np.int8) if kind is None else kind
-    return surface_elevation(position, kind, D0, x, y, width)
+def elevation(position, x=0.0, y=0.0, role=None, width=0.0):
+    role = np.zeros(len(position), np.int8) if role is None else role
+    return surface_elevation(position, role, D0, x, y, width)
 
 
 @pytest.mark.parametrize("ny", [0, 8])
@@ -73,8 +73,8 @@ def test_level_is_smooth_while_particles_pass():
 def test_thin_layer_on_a_wall(layers):
     water = lattice(40, 0, layers, x0=-20)
     wall = lattice(40, 0, 3, x0=-20) - [0, 0, 3 * D0]
-    kind = np.repeat([FLUID, WALL], [len(water), len(wall)])
-    found = elevation(np.concatenate([water, wall]), 0.3 * D0, kind=kind)
+    role = np.repeat([FLUID, FACE], [len(water), len(wall)])
+    found = elevation(np.concatenate([water, wall]), 0.3 * D0, role=role)
     assert found == pytest.approx(layers * D0, abs=0.01 * D0)
 
 
@@ -82,8 +82,8 @@ def test_thin_layer_on_a_wall(layers):
 def test_gauge_beside_a_vertical_wall(distance):
     water = lattice(40, 0, 20)
     wall = lattice(3, 0, 60, x0=-3)
-    kind = np.repeat([FLUID, PISTON], [len(water), len(wall)])
-    found = elevation(np.concatenate([water, wall]), distance * D0, kind=kind)
+    role = np.repeat([FLUID, FACE], [len(water), len(wall)])
+    found = elevation(np.concatenate([water, wall]), distance * D0, role=role)
     assert found == pytest.approx(TOP, abs=0.02 * D0)
 
 
@@ -106,10 +106,10 @@ def test_dry_place_is_nan():
     water = still_water()
     wall = np.repeat(lattice(20, 0, 3, x0=30), 2, axis=0)
     position = np.concatenate([water, wall, [[40 * D0, 0.0, 9 * D0]]])
-    kind = np.repeat([FLUID, DUMMY, FLUID], [len(water), len(wall), 1])
-    assert np.isnan(elevation(position, 25 * D0, kind=kind))
-    assert np.isnan(elevation(position, 35 * D0, kind=kind))
-    assert np.isnan(elevation(position, 40 * D0, kind=kind)), "a falling drop is not the surface"
+    role = np.repeat([FLUID, FILLER, FLUID], [len(water), len(wall), 1])
+    assert np.isnan(elevation(position, 25 * D0, role=role))
+    assert np.isnan(elevation(position, 35 * D0, role=role))
+    assert np.isnan(elevation(position, 40 * D0, role=role)), "a falling drop is not the surface"
 
 
 def disordered(ny):
@@ -119,48 +119,48 @@ def disordered(ny):
     position = np.concatenate([water, wall])
     jitter = np.random.default_rng(3).uniform(-0.1, 0.1, position.shape) * D0
     position += jitter if ny else jitter * [1, 0, 1]
-    kind = np.repeat([FLUID, WALL], [len(water), len(wall)])
+    role = np.repeat([FLUID, FACE], [len(water), len(wall)])
     pressure = 9810 * (TOP - position[:, 2]) + 3000 * position[:, 0] + 7 * position[:, 1]
     velocity = position @ np.array([[1.0, 0.2, 3.0], [0.1, 0.0, 0.5], [2.0, 1.0, -1.0]]) + 0.1
-    return position, velocity, pressure, kind
+    return position, velocity, pressure, role
 
 
 @pytest.mark.parametrize("ny", [0, 8])
 @pytest.mark.parametrize("z", [0.0, 0.4, 5.25, 10.0])
 def test_linear_fields_come_back(ny, z):
-    position, velocity, pressure, kind = disordered(ny)
+    position, velocity, pressure, role = disordered(ny)
     y = 4.2 * D0 if ny else 0.0
     point = np.array([1.3 * D0, y, z * D0])
-    p, *u = probe(position, velocity, pressure, kind, D0, point)
+    p, *u = probe(position, velocity, pressure, role, D0, point)
     assert p == pytest.approx(9810 * (TOP - z * D0) + 3000 * point[0] + 7 * y, rel=0.001)
     expected = point @ np.array([[1.0, 0.2, 3.0], [0.1, 0.0, 0.5], [2.0, 1.0, -1.0]]) + 0.1
     np.testing.assert_allclose(u, expected, rtol=0.01)
 
 
 def test_wall_velocity_does_not_enter():
-    position, velocity, pressure, kind = disordered(0)
-    velocity[kind == WALL] = 1e6
-    assert np.abs(probe(position, velocity, pressure, kind, D0, (0, 0, 0))[1:]).max() < 1.0
+    position, velocity, pressure, role = disordered(0)
+    velocity[role == FACE] = 1e6
+    assert np.abs(probe(position, velocity, pressure, role, D0, (0, 0, 0))[1:]).max() < 1.0
 
 
 def test_probe_across_the_period():
-    position, velocity, pressure, kind = disordered(8)
+    position, velocity, pressure, role = disordered(8)
     pressure[:] = position[:, 1] > 4 * D0
-    middle = probe(position, velocity, pressure, kind, D0, (0, 8 * D0, 10 * D0), 8 * D0)[0]
+    middle = probe(position, velocity, pressure, role, D0, (0, 8 * D0, 10 * D0), 8 * D0)[0]
     assert 0.2 < middle < 0.8
-    assert probe(position, velocity, pressure, kind, D0, (0, 8 * D0, 10 * D0))[0] > 0.99
+    assert probe(position, velocity, pressure, role, D0, (0, 8 * D0, 10 * D0))[0] > 0.99
 
 
 def test_probe_without_neighbours_is_nan():
-    position, velocity, pressure, kind = disordered(0)
+    position, velocity, pressure, role = disordered(0)
     far = (0.0, 0.0, TOP + 4 * D0)
-    assert np.isnan(probe(position, velocity, pressure, kind, D0, far)).all()
+    assert np.isnan(probe(position, velocity, pressure, role, D0, far)).all()
 
 
 def test_probe_on_a_dry_wall_reads_the_wall_pressure():
     wall = lattice(10, 0, 1)
     pressure = np.full(10, 2.5)
-    found = probe(wall, 0 * wall, pressure, np.full(10, WALL), D0, (5 * D0, 0, D0))
+    found = probe(wall, 0 * wall, pressure, np.full(10, FACE), D0, (5 * D0, 0, D0))
     assert found[0] == pytest.approx(2.5)
     assert np.isnan(found[1:]).all()
 
@@ -174,18 +174,18 @@ def test_single_particle_gives_its_own_values():
 @pytest.mark.parametrize("ny", [0, 8])
 @pytest.mark.parametrize("above", [0.55, 1.0, 1.5, 2.5, 9.0])
 def test_probe_in_the_air_above_the_water_is_nan(ny, above):
-    position, velocity, pressure, kind = disordered(ny)
+    position, velocity, pressure, role = disordered(ny)
     position = position.round(12)
     point = (0.3 * D0, 4.2 * D0 if ny else 0.0, TOP + (above + 0.1) * D0)
-    assert np.isnan(probe(position, velocity, pressure, kind, D0, point)).all()
+    assert np.isnan(probe(position, velocity, pressure, role, D0, point)).all()
 
 
 @pytest.mark.parametrize("place", [0.0, 0.25, 0.5])
 def test_probe_on_the_surface_of_still_water_reads_next_to_nothing(place):
     position = still_water()
     pressure = 9810 * (TOP - position[:, 2])
-    kind = np.zeros(len(position), np.int8)
-    found = probe(position, 0 * position, pressure, kind, D0, (place * D0, 0.0, TOP))
+    role = np.zeros(len(position), np.int8)
+    found = probe(position, 0 * position, pressure, role, D0, (place * D0, 0.0, TOP))
     np.testing.assert_allclose(found, 0.0, atol=1e-6)
 
 
@@ -193,10 +193,10 @@ def test_probe_on_the_surface_of_still_water_reads_next_to_nothing(place):
 def test_probe_on_the_wall_above_the_water_reads_the_dry_wall(above):
     water, wall = lattice(40, 0, 20), lattice(1, 0, 60, x0=-1)
     position = np.concatenate([water, wall])
-    kind = np.repeat([FLUID, WALL], [len(water), len(wall)])
+    role = np.repeat([FLUID, FACE], [len(water), len(wall)])
     pressure = np.maximum(9810 * (TOP - position[:, 2]), 0.0)
     for off in (-0.5, 0.0, 0.5):  # the wall as it is laid, from where the case has it
         point = (off * D0, 0.0, TOP + above * D0)
-        found = probe(position, 0 * position, pressure, kind, D0, point)
+        found = probe(position, 0 * position, pressure, role, D0, point)
         assert found[0] == 0.0
         assert np.isnan(found[1:]).all()

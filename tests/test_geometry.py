@@ -7,7 +7,7 @@ from tanks import closest, flow_of, make_case, neighbors_of, number_density_over
 
 from mpslab import bed as beds
 from mpslab import geometry, load_case
-from mpslab.particles import DUMMY, PISTON, PISTON_DUMMY, WALL
+from mpslab.particles import FACE, FILLER, PISTON
 from mpslab.settling import settle
 from mpslab.stencil import make_stencil
 
@@ -125,10 +125,10 @@ def test_bed_is_a_spacing_below_the_first_water_on_the_flat_and_along_the_slope(
     assert np.median(least) == pytest.approx(0.5 * D0, rel=0.02)
     assert np.min(least) > 0.374 * D0
     assert np.max(least) < 0.75 * D0
-    np.testing.assert_allclose(off[there & (particles.kind == WALL)], -0.5 * D0, rtol=1e-6)
+    np.testing.assert_allclose(off[there & (particles.role == FACE)], -0.5 * D0, rtol=1e-6)
     for k in (1, 2):
         layer = there & (np.abs(off + (k + 0.5) * D0) < 0.1 * D0)
-        assert np.all(particles.kind[layer] == DUMMY)
+        assert np.all(particles.role[layer] == FILLER)
         assert np.count_nonzero(layer) > 0.9 * (end - start) / D0
 
 
@@ -174,7 +174,7 @@ def test_staircase_bed_stands_on_the_lattice():
 
 def test_smooth_bed_does_not():
     _, particles = paper_slice()
-    lattice = particles.position[particles.kind == WALL][:, 2] / D0 - 0.5
+    lattice = particles.position[particles.role == FACE][:, 2] / D0 - 0.5
     assert np.abs(lattice - np.round(lattice)).max() > 0.4
 
 
@@ -195,7 +195,7 @@ def test_end_walls_reach_the_height_asked_for():
     _, particles = tank_with("slope", **{"tank.height": 0.15})
     x, z = particles.position[:, 0], particles.position[:, 2]
     for end in (x < 0.0, x > 0.4):
-        assert z[end & (particles.kind == WALL)].max() == pytest.approx(0.15 - 0.5 * D0, abs=D0)
+        assert z[end & (particles.role == FACE)].max() == pytest.approx(0.15 - 0.5 * D0, abs=D0)
 
 
 @pytest.mark.parametrize("layout", ["smooth", "staircase"])
@@ -204,7 +204,7 @@ def test_only_particles_next_to_the_tank_carry_pressure(bed, layout):
     """Wall particles deeper in the solid would be an unknown cut off from the water."""
     case, particles = tank_with(bed, **{"particles.bed": layout})
     x, z = particles.position[:, 0], particles.position[:, 2]
-    wall = particles.kind == WALL
+    wall = particles.role == FACE
     assert np.all((x[wall] > -D0) & (x[wall] < 0.4 + 1.5 * D0))
     points = np.linspace(0.0, 0.4, 4001)
     line = np.column_stack([points, beds.elevation(case.tank.bed, points)])
@@ -221,16 +221,17 @@ def test_fixed_wall_in_a_tank_without_wavemaker():
 def test_piston_stands_at_its_place_with_its_dummies_behind():
     _, particles = paper_slice()
     x = particles.position[:, 0]
-    np.testing.assert_allclose(x[particles.kind == PISTON], -0.5 * D0, rtol=1e-9)
-    assert set(np.round(x[particles.kind == PISTON_DUMMY] / D0, 6)) == {-1.5, -2.5}
-    assert particles.position[particles.kind == PISTON, 2].min() > 0.0
+    piston = particles.body == PISTON
+    np.testing.assert_allclose(x[piston & (particles.role == FACE)], -0.5 * D0, rtol=1e-9)
+    assert set(np.round(x[piston & (particles.role == FILLER)] / D0, 6)) == {-1.5, -2.5}
+    assert particles.position[piston & (particles.role == FACE), 2].min() > 0.0
 
 
 @pytest.mark.parametrize("backmost", [0.0, -0.0101, -0.02])
 def test_bed_reaches_behind_the_piston_at_its_backmost(backmost):
     case = load_case("plunging_breaker", PAPER)
     particles = geometry.build_particles(case, backmost)
-    bed = (particles.kind == WALL) | (particles.kind == DUMMY)
+    bed = (particles.role == FACE) | (particles.role == FILLER)
     assert particles.position[bed, 0].min() < backmost - 2.0 * D0
 
 

@@ -6,7 +6,7 @@ from tanks import closest, make_case, number_density_over_n0
 
 from mpslab import bed as beds
 from mpslab import geometry
-from mpslab.particles import DUMMY, FLUID, WALL
+from mpslab.particles import FACE, FILLER, FLUID
 
 D0 = 0.002
 
@@ -31,15 +31,15 @@ def test_side_walls_are_one_layer_of_walls_and_dummies_behind():
     x, y, z = particles.position.T
     over = (z > 0.0) & (x > 0.0) & (x < 0.02)
     outside = np.maximum(-y, y - 0.02) / D0
-    assert np.all(particles.kind[over & (outside < 0.0)] == FLUID)
-    assert np.all(particles.kind[over & (outside > 0.0) & (outside < 1.0)] == WALL)
-    assert np.all(particles.kind[over & (outside > 1.0)] == DUMMY)
+    assert np.all(particles.role[over & (outside < 0.0)] == FLUID)
+    assert np.all(particles.role[over & (outside > 0.0) & (outside < 1.0)] == FACE)
+    assert np.all(particles.role[over & (outside > 1.0)] == FILLER)
     assert np.ptp(np.unique(np.round(outside[outside > 0.0], 6))) == pytest.approx(2.0)
 
 
 def test_side_walls_carry_pressure_only_along_the_tank():
     _, particles = walled()
-    x = particles.position[particles.kind == WALL, 0]
+    x = particles.position[particles.role == FACE, 0]
     assert (x.min(), x.max()) == (pytest.approx(-0.5 * D0), pytest.approx(0.02 + 0.5 * D0))
 
 

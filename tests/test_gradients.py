@@ -5,7 +5,7 @@ import pytest
 from tanks import cloud, inside, lattice, matrices_of, neighbors_of
 
 from mpslab import plugins
-from mpslab.particles import DUMMY, FLUID, PISTON, PISTON_DUMMY, WALL
+from mpslab.particles import FACE, FILLER, FLUID
 from mpslab.stencil import make_stencil
 
 NAMES = plugins.names("gradients")
@@ -16,16 +16,16 @@ SLOPE = np.array([3.0, -2.0, 5.0])
 RADII = [2.1, 3.1]
 
 
-def apply(name, position, pressure, dim, radius=2.1, kind=None, width=0.0, reach=None):
+def apply(name, position, pressure, dim, radius=2.1, role=None, width=0.0, reach=None):
     """Gradient of a model at every particle, spacing 1; `reach` is that of the list."""
     position = np.ascontiguousarray(position)
-    kind = np.zeros(len(position), np.int8) if kind is None else np.asarray(kind, np.int8)
+    role = np.zeros(len(position), np.int8) if role is None else np.asarray(role, np.int8)
     found = neighbors_of(position, reach or radius, width)
     out = np.full(position.shape, np.nan)
     stencil = make_stencil(dim, 1.0, radius, width)
-    c = matrices_of(position, kind, found, stencil)
+    c = matrices_of(position, role, found, stencil)
     MODELS[name].gradient(
-        position, pressure, kind, found.indptr, found.indices, stencil, c, out
+        position, pressure, role, found.indptr, found.indices, stencil, c, out
     )  # fmt: skip
     return out
 
@@ -114,10 +114,10 @@ def test_models_without_the_promise_miss_the_linear_field_on_a_shaken_lattice(na
 def test_gradient_of_linear_field_is_exact_beside_dummies(name, dim):
     """They are no neighbours: neither in the sum nor in the correction."""
     position = cloud(dim, 700, seed=2, jitter=0.2)
-    kind = np.where(position[:, 2] < -1.0, DUMMY, FLUID)
-    pressure = np.where(kind == FLUID, 7.0 + position @ slope(dim), 1e6)
-    found = apply(name, position, pressure, dim, kind=kind)
-    there = (kind == FLUID) & inside(position, np.abs(position).max() - 2.2)
+    role = np.where(position[:, 2] < -1.0, FILLER, FLUID)
+    pressure = np.where(role == FLUID, 7.0 + position @ slope(dim), 1e6)
+    found = apply(name, position, pressure, dim, role=role)
+    there = (role == FLUID) & inside(position, np.abs(position).max() - 2.2)
     assert np.any(there & (position[:, 2] < 0.0))
     assert relative_error(found[there], slope(dim)) < 1e-12
 
@@ -125,12 +125,12 @@ def test_gradient_of_linear_field_is_exact_beside_dummies(name, dim):
 def test_correction_of_corrected_counts_the_dummies():
     """Beside a wall on the lattice it corrects nothing, and equals the symmetric model."""
     position = lattice(3, 6)
-    kind = np.where(position[:, 2] < 0.0, DUMMY, FLUID)
+    role = np.where(position[:, 2] < 0.0, FILLER, FLUID)
     pressure = np.random.default_rng(1).uniform(size=len(position))
     there = inside(position, 1)
     np.testing.assert_allclose(
-        apply("corrected", position, pressure, 3, kind=kind)[there],
-        apply("symmetric", position, pressure, 3, kind=kind)[there],
+        apply("corrected", position, pressure, 3, role=role)[there],
+        apply("symmetric", position, pressure, 3, role=role)[there],
         rtol=1e-12, atol=1e-13,
     )  # fmt: skip
 
@@ -153,9 +153,9 @@ def test_pair_of_particles_gives_the_printed_formula(name, dim):
 @pytest.mark.parametrize("name", NAMES)
 def test_particles_beyond_the_radius_do_not_matter(name):
     """The list may reach further, for the Laplacian."""
-    position, kind, pressure = mixed_cloud()
-    near = apply(name, position, pressure, 3, kind=kind)
-    far = apply(name, position, pressure, 3, kind=kind, reach=3.1)
+    position, role, pressure = mixed_cloud()
+    near = apply(name, position, pressure, 3, role=role)
+    far = apply(name, position, pressure, 3, role=role, reach=3.1)
     assert np.abs(far - near).max() < 1e-12 * np.abs(near).max()
 
 
@@ -209,73 +209,72 @@ def test_flags_say_who_conserves_momentum():
 
 
 def mixed_cloud(dim=3):
-    """Cloud with particles of every kind, and their pressures."""
+    """Cloud with particles of every role, and their pressures."""
     random = np.random.default_rng(8)
     position = cloud(dim, 400, seed=7, jitter=0.3)
-    kind = random.choice([FLUID, FLUID, WALL, DUMMY, PISTON, PISTON_DUMMY], len(position))
-    return position, kind, random.uniform(0.0, 100.0, len(position))
+    role = random.choice([FLUID, FACE, FILLER], len(position))
+    return position, role, random.uniform(0.0, 100.0, len(position))
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_gradient_is_zero_for_all_but_fluid(name):
-    position, kind, pressure = mixed_cloud()
-    found = apply(name, position, pressure, 3, kind=kind)
-    assert np.all(found[kind != FLUID] == 0.0)
-    assert np.all(np.linalg.norm(found[kind == FLUID], axis=1) > 0.0)
+    position, role, pressure = mixed_cloud()
+    found = apply(name, position, pressure, 3, role=role)
+    assert np.all(found[role != FLUID] == 0.0)
+    assert np.all(np.linalg.norm(found[role == FLUID], axis=1) > 0.0)
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_pressure_of_dummies_does_not_matter(name):
-    position, kind, pressure = mixed_cloud()
-    other = np.where((kind == DUMMY) | (kind == PISTON_DUMMY), -1e6, pressure)
+    position, role, pressure = mixed_cloud()
+    other = np.where(role == FILLER, -1e6, pressure)
     np.testing.assert_array_equal(
-        apply(name, position, pressure, 3, kind=kind), apply(name, position, other, 3, kind=kind)
+        apply(name, position, pressure, 3, role=role), apply(name, position, other, 3, role=role)
     )
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("one", [WALL, PISTON])
 def test_pressure_of_walls_and_piston_matters(name, one):
-    position, kind, pressure = mixed_cloud()
-    other = np.where(kind == one, pressure + 50.0, pressure)
-    here = apply(name, position, pressure, 3, kind=kind)
-    there = apply(name, position, other, 3, kind=kind)
-    assert np.abs(there - here)[kind == FLUID].max() > 1.0
+    position, role, pressure = mixed_cloud()
+    other = np.where(role == one, pressure + 50.0, pressure)
+    here = apply(name, position, pressure, 3, role=role)
+    there = apply(name, position, other, 3, role=role)
+    assert np.abs(there - here)[role == FLUID].max() > 1.0
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_gradient_does_not_depend_on_the_place(name):
-    position, kind, pressure = mixed_cloud()
-    here = apply(name, position, pressure, 3, kind=kind)
-    there = apply(name, position + np.array([17.3, -5.1, 40.7]), pressure, 3, kind=kind)
+    position, role, pressure = mixed_cloud()
+    here = apply(name, position, pressure, 3, role=role)
+    there = apply(name, position + np.array([17.3, -5.1, 40.7]), pressure, 3, role=role)
     assert np.abs(there - here).max() < 1e-11 * np.abs(here).max()
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_gradient_in_2d_equals_itself_turned_upside_down(name):
     """Mirroring z mirrors the gradient: no direction is preferred."""
-    position, kind, pressure = mixed_cloud(dim=2)
-    here = apply(name, position, pressure, 2, kind=kind)
-    mirrored = apply(name, position * [1.0, 1.0, -1.0], pressure, 2, kind=kind)
+    position, role, pressure = mixed_cloud(dim=2)
+    here = apply(name, position, pressure, 2, role=role)
+    mirrored = apply(name, position * [1.0, 1.0, -1.0], pressure, 2, role=role)
     assert np.abs(mirrored * [1.0, 1.0, -1.0] - here).max() < 1e-12 * np.abs(here).max()
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_gradient_in_2d_has_no_component_across(name):
-    position, kind, pressure = mixed_cloud(dim=2)
-    assert np.all(apply(name, position, pressure, 2, kind=kind)[:, 1] == 0.0)
+    position, role, pressure = mixed_cloud(dim=2)
+    assert np.all(apply(name, position, pressure, 2, role=role)[:, 1] == 0.0)
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_periodic_tank_equals_explicit_copies(name):
     width = 7.0
-    position, kind, pressure = mixed_cloud()
+    position, role, pressure = mixed_cloud()
     within = np.abs(position[:, 1]) < 0.5 * width
     across = np.array([0.0, width, 0.0])
-    position, kind, pressure = position[within] + 0.5 * across, kind[within], pressure[within]
+    position, role, pressure = position[within] + 0.5 * across, role[within], pressure[within]
     copies = np.vstack([position + copy * across for copy in (0, -1, 1)])
-    wrapped = apply(name, position, pressure, 3, kind=kind, width=width)
-    explicit = apply(name, copies, np.tile(pressure, 3), 3, kind=np.tile(kind, 3))[: len(position)]
+    wrapped = apply(name, position, pressure, 3, role=role, width=width)
+    explicit = apply(name, copies, np.tile(pressure, 3), 3, role=np.tile(role, 3))[: len(position)]
     assert np.abs(wrapped - explicit).max() < 1e-11 * np.abs(explicit).max()
 
 

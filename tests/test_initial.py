@@ -11,9 +11,9 @@ DISC = {"from": [0.01, 0.0, 0.01], "to": [0.03, 0.01, 0.024], "shape": "disc"}
 RATE = 7.0
 
 
-def water_of(kind, **changes):
+def water_of(role, **changes):
     tank = {"tank.length": 0.05, "tank.height": 0.05, "particles.jitter": 0.1, "water": [DISC]}
-    start = {"initial.type": kind, "initial.rate": RATE}
+    start = {"initial.type": role, "initial.rate": RATE}
     case = make_case({**tank, **start, **changes})
     particles = geometry.build_particles(case)
     initial.set_velocity(case, particles, np.sum)
@@ -23,21 +23,21 @@ def water_of(kind, **changes):
 
 @pytest.mark.parametrize("width", [0.0, 0.02])
 @pytest.mark.parametrize(
-    ("kind", "matrix"),
+    ("role", "matrix"),
     [
         ("strain", [[RATE, 0, 0], [0, 0, 0], [0, 0, -RATE]]),
         ("rotation", [[0, 0, RATE], [0, 0, 0], [-RATE, 0, 0]]),
     ],
 )
-def test_velocity_is_linear_about_the_centre_of_mass(kind, matrix, width):
-    water = water_of(kind, **{"tank.width": width})
+def test_velocity_is_linear_about_the_centre_of_mass(role, matrix, width):
+    water = water_of(role, **{"tank.width": width})
     away = water.position - water.position.mean(axis=0)
     np.testing.assert_allclose(water.velocity, away @ np.transpose(matrix), atol=1e-14)
 
 
-@pytest.mark.parametrize("kind", ["strain", "rotation"])
-def test_water_starts_without_momentum(kind):
-    water = water_of(kind)
+@pytest.mark.parametrize("role", ["strain", "rotation"])
+def test_water_starts_without_momentum(role):
+    water = water_of(role)
     assert np.abs(water.velocity.sum(axis=0)).max() < 1e-15 * np.abs(water.velocity).sum()
 
 

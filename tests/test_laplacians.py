@@ -6,7 +6,7 @@ from scipy.sparse import csr_array, diags_array
 from tanks import cloud, inside, lattice, neighbors_of, particles_at
 
 from mpslab import plugins, pressure
-from mpslab.particles import DUMMY, FLUID, WALL
+from mpslab.particles import FACE, FILLER, FLUID
 from mpslab.stencil import make_stencil
 
 NAMES = plugins.names("laplacians")
@@ -112,9 +112,9 @@ def shaken(dim, seed=3):
     """Shaken lattice, its outermost layer free surface, a fifth of it walls or dummies."""
     particles = particles_at(cloud(dim, 300, seed, jitter=0.3))
     random = np.random.default_rng(seed)
-    particles.kind[:] = random.choice([FLUID] * 8 + [WALL, DUMMY], len(particles))
+    particles.role[:] = random.choice([FLUID] * 8 + [FACE, FILLER], len(particles))
     x = particles.position
-    particles.surface[:] = ~inside(x, np.abs(x).max() - 1.0) & (particles.kind != DUMMY)
+    particles.surface[:] = ~inside(x, np.abs(x).max() - 1.0) & (particles.role != FILLER)
     return particles
 
 
@@ -140,7 +140,7 @@ def test_matrix_is_a_positive_definite_m_matrix(name, dim):
 @pytest.mark.parametrize("name", NAMES)
 def test_dummies_leave_no_trace_in_the_matrix(name):
     particles = shaken(3)
-    without = particles.take(particles.kind != DUMMY)
+    without = particles.take(particles.role != FILLER)
     assert abs(matrix(particles, 3, 2.1, name)[0] - matrix(without, 3, 2.1, name)[0]).max() == 0.0
 
 
@@ -148,7 +148,7 @@ def test_dummies_leave_no_trace_in_the_matrix(name):
 def test_rows_are_the_pressure_carriers_below_the_surface(name):
     particles = shaken(3)
     _, rows = matrix(particles, 3, 2.1, name)
-    expected = (particles.kind != DUMMY) & (particles.surface == 0)
+    expected = (particles.role != FILLER) & (particles.surface == 0)
     np.testing.assert_array_equal(rows, np.flatnonzero(expected))
 
 

@@ -9,7 +9,7 @@ from tanks import make_case
 
 from mpslab import measures
 from mpslab.diagnostics import piston_force
-from mpslab.particles import DUMMY, FLUID, PISTON
+from mpslab.particles import FACE, FILLER, FLUID, PISTON, WATER
 from mpslab.pictures import draw_run, read_table
 from mpslab.simulation import Simulation
 from mpslab.stencil import make_stencil
@@ -98,7 +98,8 @@ def test_work_is_force_times_stroke(driven):
 @pytest.mark.parametrize(("dim", "face"), [(2, 0.5), (3, 0.25)])
 def test_piston_force_is_its_pressure_times_the_face_of_each_particle(dim, face):
     class Particles:
-        kind = np.array([PISTON, PISTON, FLUID, DUMMY])
+        role = np.array([FACE, FACE, FLUID, FILLER])
+        body = np.array([PISTON, PISTON, WATER, PISTON])
         pressure = np.array([2.0, 4.0, 100.0, 100.0])
 
     assert piston_force(Particles, make_stencil(dim, 0.5, 2.1)) == 6.0 * face

@@ -8,7 +8,7 @@ from tanks import CLASSIC, closest, flow_of, make_case, number_density_over_n0, 
 from mpslab import geometry, load_case, obstacles
 from mpslab.gauges import probe, surface_elevation
 from mpslab.keys import CaseError
-from mpslab.particles import DUMMY, FLUID, WALL, make_particles
+from mpslab.particles import FACE, FILLER, FLUID, make_particles
 from mpslab.piston import make_paddle
 from mpslab.preflight import preflight
 from mpslab.watch import find_lost
@@ -54,8 +54,8 @@ def test_box_of_kleefsman_is_laid_out_in_3d():
     x = particles.position
     there = within(x, (0.66, 0.3, 0.0), (0.82, 0.7, 0.16), axes=(0, 1, 2))
     assert np.count_nonzero(there) == 8 * 20 * 8
-    assert np.count_nonzero(particles.kind[there] == DUMMY) == 6 * 18 * 7
-    assert np.count_nonzero(particles.kind[there] == WALL) == 8 * 20 * 8 - 6 * 18 * 7
+    assert np.count_nonzero(particles.role[there] == FILLER) == 6 * 18 * 7
+    assert np.count_nonzero(particles.role[there] == FACE) == 8 * 20 * 8 - 6 * 18 * 7
     np.testing.assert_allclose(x[there].min(axis=0), [0.67, 0.31, 0.01])
     np.testing.assert_allclose(x[there].max(axis=0), [0.81, 0.69, 0.15])
     assert np.count_nonzero(particles.fluid) == 60 * 50 * 15 - 8 * 20 * 8
@@ -74,8 +74,8 @@ def test_outermost_particles_are_wall_and_those_inside_are_dummy(obstacle):
     wet = particles.position[particles.fluid]
     dry = lattice_above_the_water()
     apart = cKDTree(np.vstack([wet, dry])).query(particles.position[there])[0]
-    np.testing.assert_array_equal(particles.kind[there] == WALL, apart < 1.5 * D0)
-    assert np.all(np.isin(particles.kind[there], (WALL, DUMMY)))
+    np.testing.assert_array_equal(particles.role[there] == FACE, apart < 1.5 * D0)
+    assert np.all(np.isin(particles.role[there], (FACE, FILLER)))
 
 
 def lattice_above_the_water():
@@ -117,7 +117,7 @@ def test_walls_against_an_obstacle_carry_no_pressure():
     _, particles = tank_with(BESIDE_THE_END_WALL, RESTING)
     x, z = particles.position[:, 0], particles.position[:, 2]
     bed = (z < 0.0) & (z > -D0)
-    wall = particles.kind == WALL
+    wall = particles.role == FACE
     np.testing.assert_allclose(x[bed & wall & (x > 0.02) & (x < 0.034)], [0.021, 0.033])
     end = (x > 0.06) & (x < 0.06 + D0)
     assert z[end & wall].min() == pytest.approx(0.011)
@@ -130,12 +130,12 @@ def test_obstacles_that_touch_or_overlap_are_one_body():
     _, overlapping = tank_with(low, high)
     upper = box([0.03, 0.0, 0.01], [0.04, 0.0, 0.02])
     _, stacked = tank_with(low, upper)
-    for name in ("position", "kind", "pressure"):
+    for name in ("position", "role", "pressure"):
         np.testing.assert_array_equal(getattr(overlapping, name), getattr(stacked, name))
     solid = within(overlapping.position, (0.02, 0, 0), (0.04, 0, 0.02)) & ~overlapping.fluid
     assert np.count_nonzero(solid) == 10 * 5 + 5 * 5
     inner = within(overlapping.position, (0.03 + D0, 0, 0), (0.04 - D0, 0, 0.02 - D0))
-    assert np.all(overlapping.kind[inner] == DUMMY)
+    assert np.all(overlapping.role[inner] == FILLER)
 
 
 @pytest.mark.parametrize("layout", ["smooth", "staircase"])
@@ -152,7 +152,7 @@ def test_obstacle_on_a_slope_is_clear_of_the_bed_and_of_the_water(layout, start)
     body = solid & (position[:, 2] > case.tank.bed_height(position[:, 0]))
     lattice = position[body][:, [0, 2]] / D0 - 0.5
     np.testing.assert_allclose(lattice, np.round(lattice), atol=1e-9)
-    assert np.all(particles.kind[body & (position[:, 2] > 0.026 - D0)] == WALL)
+    assert np.all(particles.role[body & (position[:, 2] > 0.026 - D0)] == FACE)
     apart = cKDTree(position[~fluid]).query(position[fluid])[0]
     assert apart.min() > 0.874 * D0
 
@@ -164,7 +164,7 @@ def test_tank_without_an_obstacle_there_is_left_as_it_is():
         name: np.abs(particles.position[:, 0] - 0.027) > 0.012
         for name, particles in (("plain", plain), ("with", with_box))
     }
-    for name in ("position", "kind", "pressure"):
+    for name in ("position", "role", "pressure"):
         np.testing.assert_array_equal(
             getattr(plain, name)[far["plain"]], getattr(with_box, name)[far["with"]]
         )
@@ -174,7 +174,7 @@ def test_tank_without_an_obstacle_there_is_left_as_it_is():
 def test_walls_of_an_obstacle_start_with_the_pressure_of_the_water_beside_them(obstacle):
     _, particles = tank_with(obstacle)
     z = particles.position[:, 2]
-    wall = within(particles.position, obstacle["from"], obstacle["to"]) & (particles.kind == WALL)
+    wall = within(particles.position, obstacle["from"], obstacle["to"]) & (particles.role == FACE)
     exact = WEIGHT * np.maximum(0.03 - z[wall], 0.0)
     np.testing.assert_allclose(particles.pressure[wall], exact, atol=1e-9)
 
@@ -207,7 +207,7 @@ def assert_still_and_hydrostatic(flow, faces, rel):
     assert np.linalg.norm(p.velocity[p.fluid], axis=1).max() < 0.1
     assert np.sqrt(np.mean(p.velocity[p.fluid] ** 2)) < 0.01
     for x, z in faces:
-        found = probe(p.position, p.velocity, p.pressure, p.kind, D0, (x, 0.0, z))[0]
+        found = probe(p.position, p.velocity, p.pressure, p.role, D0, (x, 0.0, z))[0]
         assert found == pytest.approx(WEIGHT * (0.03 - z), rel=rel), (x, z)
 
 
@@ -227,7 +227,7 @@ def test_water_stays_still_around_a_box_in_3d():
     p = flow.particles
     assert np.sqrt(np.mean(p.velocity[p.fluid] ** 2)) < 0.015
     for point in ((0.01, 0.01, 0.005), (0.014, 0.014, 0.005), (0.014, 0.01, 0.01)):
-        found = probe(p.position, p.velocity, p.pressure, p.kind, D0, point)[0]
+        found = probe(p.position, p.velocity, p.pressure, p.role, D0, point)[0]
         assert found == pytest.approx(WEIGHT * (0.02 - point[2]), rel=0.06)
 
 
@@ -239,7 +239,7 @@ def test_water_does_not_press_through_an_obstacle_of_the_least_thickness():
     assert obstacles.least_thickness(case) == 4
     p = run(flow_of(case), 250, 4e-4).particles
     for x, level in ((0.026, 0.03), (0.034, 0.008)):
-        found = probe(p.position, p.velocity, p.pressure, p.kind, D0, (x, 0.0, 0.003))[0]
+        found = probe(p.position, p.velocity, p.pressure, p.role, D0, (x, 0.0, 0.003))[0]
         assert found == pytest.approx(WEIGHT * (level - 0.003), rel=0.06)
     left = p.position[p.fluid, 0] < 0.03
     assert np.count_nonzero(left) == 13 * 15
@@ -253,7 +253,7 @@ def test_gauge_reads_the_level_above_a_submerged_obstacle_and_none_in_a_dry_one(
         wide = {**obstacle, "to": [obstacle["to"][0], 0.02, obstacle["to"][2]]}
         _, p = tank_with(wide, **changes)
         for x in (0.004, 0.019, 0.02, 0.0271, 0.034, 0.04):
-            level = surface_elevation(p.position, p.kind, D0, x, y)
+            level = surface_elevation(p.position, p.role, D0, x, y)
             if obstacle is PIERCING and x == 0.0271:
                 assert np.isnan(level)
             else:

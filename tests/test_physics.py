@@ -8,7 +8,7 @@ from tanks import CLASSIC, flow_of, make_case, run
 
 from mpslab import Simulation, initial, load_case, plugins, timestep
 from mpslab.diagnostics import max_speed, volume
-from mpslab.particles import WALL
+from mpslab.particles import FACE
 from mpslab.step import advance
 
 D0, DENSITY, GRAVITY = 0.002, 1000.0, 9.81
@@ -24,7 +24,7 @@ def floor_pressure(scheme, jitter=0.001, steps=200, settle=50, dt=4e-4):
     tank = {"tank.length": 0.03, "tank.depth": 0.04}
     flow = flow_of(make_case({**tank, **scheme, "particles.jitter": jitter}))
     x, z = flow.particles.position[:, 0], flow.particles.position[:, 2]
-    bed = (flow.particles.kind == WALL) & (z < 0.0) & (z > -D0) & (x > 0.0) & (x < 0.03)
+    bed = (flow.particles.role == FACE) & (z < 0.0) & (z > -D0) & (x > 0.0) & (x < 0.03)
     mean = []
     for _ in range(steps):
         run(flow, 1, dt)

@@ -9,8 +9,9 @@ from synthetic import write_run
 
 from mpslab import cases, headings, pictures, snapshots, vtkhdf
 from mpslab import panels as panels_of
+from mpslab.kinds import DUMMY, FLUID, GATE, GATE_DUMMY, WALL
 from mpslab.output import RunFolder
-from mpslab.particles import DUMMY, FLUID, GATE, GATE_DUMMY, WALL, make_particles
+from mpslab.particles import make_particles
 
 SPACING = 0.004
 
@@ -139,7 +140,9 @@ def test_the_legend_names_every_solid_that_is_seen(tmp_path, folder, case):
     kinds = [FLUID, FLUID, WALL, DUMMY, WALL, GATE, GATE_DUMMY]
     places = np.array([[0.01 * k, 0.0, 0.0] for k in range(len(kinds))])
     path = tmp_path / "p.vtkhdf"
-    vtkhdf.ParticleSeries(path, []).append(0.0, make_particles(places, kinds))
+    vtkhdf.ParticleSeries(path, []).append(
+        0.0, make_particles(places, np.zeros(len(kinds))), np.array(kinds, np.int8)
+    )
     case["obstacle"] = [{"from": [0.035, 0.0, -0.005], "to": [0.045, 0.0, 0.005]}]
     case["water"] = [{"from": [0.0, 0.0, 0.0], "to": [0.02, 0.0, 0.02]}]
     assert legend(snapshots.draw_tank(path, case)) == ["water", "wall", "obstacle", "gate"]

@@ -6,7 +6,7 @@ from tanks import flow_of, make_case
 
 from mpslab import geometry
 from mpslab.paddle import from_motion, sample_times
-from mpslab.particles import DUMMY, FLUID, WALL
+from mpslab.particles import FACE, FILLER, FLUID
 from mpslab.piston import Piston, make_paddle
 
 D0 = 0.002
@@ -84,22 +84,22 @@ def test_face_is_the_displacement(tank):
 
 def test_bed_behind_the_face_carries_no_pressure_and_comes_back():
     particles, piston, _ = tank_of(motion)
-    kind = particles.kind.copy()
-    floor = kind == WALL
+    role = particles.role.copy()
+    floor = role == FACE
     particles.pressure[:] = 5.0
     piston.push(particles, 0.0, 0.5 * PERIOD)
     piston.move(particles, 0.0 + 0.5 * PERIOD)
     covered = floor & (particles.position[:, 0] < STROKE - 0.75 * D0)
     assert np.count_nonzero(covered) >= STROKE / D0 - 1
-    assert np.all(particles.kind[covered] == DUMMY)
+    assert np.all(particles.role[covered] == FILLER)
     assert np.all(particles.pressure[covered] == 0.0)
     assert np.all(particles.pressure[~covered] == 5.0)
-    assert np.all(particles.kind[~covered] == kind[~covered])
+    assert np.all(particles.role[~covered] == role[~covered])
     piston.push(particles, 0.5 * PERIOD, 0.5 * PERIOD)
     piston.move(particles, 0.5 * PERIOD + 0.5 * PERIOD)
     behind = floor & (particles.position[:, 0] < -0.75 * D0)
-    np.testing.assert_array_equal(particles.kind[~behind], kind[~behind])
-    assert np.all(particles.kind[behind] == DUMMY)
+    np.testing.assert_array_equal(particles.role[~behind], role[~behind])
+    assert np.all(particles.role[behind] == FILLER)
 
 
 def test_bed_ahead_of_a_withdrawn_piston_carries_pressure():
@@ -110,7 +110,7 @@ def test_bed_ahead_of_a_withdrawn_piston_carries_pressure():
     x, z = particles.position[:, 0], particles.position[:, 2]
     top = ~particles.moves_with_piston & (np.abs(z + 0.5 * D0) < 1e-9)
     ahead = top & (x > -STROKE) & (x < 0.1)
-    assert np.all(particles.kind[ahead] == WALL)
+    assert np.all(particles.role[ahead] == FACE)
     assert np.count_nonzero(ahead & (x < 0.0)) == round(STROKE / D0)
 
 
@@ -136,7 +136,7 @@ def test_bed_is_covered_right_after_particles_were_lost():
     piston.move(particles, 0.0 + 0.1)
     piston.push(rest, 0.0, 0.1)
     piston.move(rest, 0.0 + 0.1)
-    np.testing.assert_array_equal(rest.kind, particles.kind[keep])
+    np.testing.assert_array_equal(rest.role, particles.role[keep])
     np.testing.assert_array_equal(rest.position, particles.position[keep])
 
 
@@ -145,7 +145,7 @@ def test_water_is_never_touched(tank):
     water = particles.position[particles.fluid].copy()
     piston.push(particles, 0.0, 0.25)
     piston.move(particles, 0.0 + 0.25)
-    assert np.all(particles.position[particles.kind == FLUID] == water)
+    assert np.all(particles.position[particles.role == FLUID] == water)
 
 
 def test_tank_without_wavemaker_has_a_fixed_wall():
@@ -153,9 +153,9 @@ def test_tank_without_wavemaker_has_a_fixed_wall():
     particles = geometry.build_particles(case)
     assert make_paddle(case) is None
     piston = Piston(particles, None, D0)
-    before = particles.position.copy(), particles.kind.copy()
+    before = particles.position.copy(), particles.role.copy()
     piston.push(particles, 0.0, 0.1)
     piston.move(particles, 0.0 + 0.1)
     assert piston.face(3.0) == 0.0
     np.testing.assert_array_equal(particles.position, before[0])
-    np.testing.assert_array_equal(particles.kind, before[1])
+    np.testing.assert_array_equal(particles.role, before[1])

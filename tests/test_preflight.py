@@ -6,8 +6,8 @@ from tanks import make_case
 
 from mpslab import cases, census, geometry
 from mpslab.keys import CaseError
+from mpslab.kinds import KIND_NAMES, kinds_of
 from mpslab.parameters import LISTS
-from mpslab.particles import KIND_NAMES
 from mpslab.piston import make_paddle
 from mpslab.preflight import preflight
 from mpslab.simulation import Simulation
@@ -25,7 +25,7 @@ def findings(case, section):
 def laid_out(case):
     paddle = make_paddle(case)
     particles = geometry.build_particles(case, paddle.backmost if paddle else 0.0)
-    return np.bincount(particles.kind, minlength=len(KIND_NAMES))
+    return np.bincount(kinds_of(case, particles), minlength=len(KIND_NAMES))
 
 
 def counted(case):

@@ -6,7 +6,7 @@ from tanks import inside, lattice, neighbors_of, particles_at
 
 from mpslab import plugins, pressure
 from mpslab.laplacians.standard import pair_terms
-from mpslab.particles import DUMMY, FLUID, WALL
+from mpslab.particles import FACE, FILLER, FLUID
 from mpslab.solvers import iccg
 from mpslab.stencil import make_stencil
 
@@ -67,8 +67,8 @@ def test_cluster_that_touches_one_surface_particle_is_tied():
 
 def test_particle_without_any_neighbour_of_its_kind_gets_a_finite_pressure():
     """Inside the layers behind a wall, its row would be empty."""
-    particles = particles_at(lattice(3, 2), DUMMY)
-    particles.kind[inside(particles.position, 0)] = FLUID
+    particles = particles_at(lattice(3, 2), FILLER)
+    particles.role[inside(particles.position, 0)] = FLUID
     system, rows = assembled(particles, source=1e4)
     report = pressure.solve(system, rows, particles, iccg, 1e-8, 100, True)
     assert report.converged
@@ -93,8 +93,8 @@ def column(dim, height=12):
     y = np.arange(6.0) + 0.5 if dim == 3 else np.zeros(1)
     position = np.stack(np.meshgrid(x, y, z, indexing="ij"), axis=-1).reshape(-1, 3)
     particles = particles_at(position)
-    particles.kind[position[:, 2] < 0.0] = DUMMY
-    particles.kind[position[:, 2] == 0.0] = WALL
+    particles.role[position[:, 2] < 0.0] = FILLER
+    particles.role[position[:, 2] == 0.0] = FACE
     particles.surface[:] = position[:, 2] == height - 1
     return particles
 
@@ -152,5 +152,5 @@ def test_particles_without_a_row_have_no_pressure():
     system, rows = assembled(particles, source=1.0)
     pressure.solve(system, rows, particles, iccg, 1e-8, 200, True)
     without = np.setdiff1d(np.arange(len(particles)), rows)
-    assert set(particles.kind[without]) == {FLUID, DUMMY}
+    assert set(particles.role[without]) == {FLUID, FILLER}
     assert np.all(particles.pressure[without] == 0.0)

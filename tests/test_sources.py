@@ -22,10 +22,10 @@ def source(
     density.number_density(position, found.indptr, found.indices, stencil, n)
     rest = stencil.relaxed if name in ("adjoint", "corrected") else stencil.n0
     n[:] = n * rest / stencil.n0 if ratio is None else ratio * rest
-    out, kind = np.full(len(position), np.nan), np.zeros(len(position), np.int8)
-    c = matrices_of(position, kind, found, stencil)
+    out, role = np.full(len(position), np.nan), np.zeros(len(position), np.int8)
+    c = matrices_of(position, role, found, stencil)
     plugins.load("sources", name).source(
-        position, np.ascontiguousarray(velocity), kind, n, found.indptr, found.indices, stencil,
+        position, np.ascontiguousarray(velocity), role, n, found.indptr, found.indices, stencil,
         c, dt, rate, scheme(**changes), out,
     )  # fmt: skip
     return out
@@ -108,10 +108,10 @@ def test_adjoint_divergence_is_the_adjoint_of_the_corrected_gradient():
     random = np.random.default_rng(4)
     velocity, p = random.normal(size=position.shape), random.uniform(size=len(position))
     found, stencil = neighbors_of(position, 2.1), make_stencil(3, 1.0, 2.1)
-    kind, out = np.zeros(len(p), np.int8), np.empty(position.shape)
-    c = matrices_of(position, kind, found, stencil)
+    role, out = np.zeros(len(p), np.int8), np.empty(position.shape)
+    c = matrices_of(position, role, found, stencil)
     plugins.load("gradients", "corrected").gradient(
-        position, p, kind, found.indptr, found.indices, stencil, c, out
+        position, p, role, found.indptr, found.indices, stencil, c, out
     )
     divergence = -DT * source("adjoint", position, velocity, 3, ratio=1.0, rate=0.0)
     assert p @ divergence == pytest.approx(-np.sum(velocity * out), rel=1e-10)

@@ -5,7 +5,7 @@ import pytest
 from tanks import cloud, inside, lattice, matrices_of, neighbors_of, particles_at, scheme
 
 from mpslab import plugins
-from mpslab.particles import DUMMY, FLUID, PISTON, PISTON_DUMMY, WALL
+from mpslab.particles import FACE, FILLER, FLUID
 from mpslab.stencil import make_stencil
 
 NAMES = plugins.names("stabilisers")
@@ -19,25 +19,25 @@ def apply(name, particles, before=None, dim=3, reach=2.1, **changes):
     before = position if before is None else np.ascontiguousarray(before)
     found = neighbors_of(position, reach)
     stencil = make_stencil(dim, 1.0, 2.1)
-    c = matrices_of(particles.position, particles.kind, found, stencil)
+    c = matrices_of(particles.position, particles.role, found, stencil)
     MODELS[name].stabilise(particles, before, found, stencil, c, DT, scheme(**changes))
     return particles.position - position, particles.velocity - velocity
 
 
-def pair(distance, kinds=(FLUID, FLUID), speed=0.0, direction=(0.6, 0.0, 0.8)):
+def pair(distance, roles=(FLUID, FLUID), speed=0.0, direction=(0.6, 0.0, 0.8)):
     """Two particles at a distance; the first moves towards the second, the second towards it."""
     e = np.array(direction)
     particles = particles_at(np.outer([0.0, distance], e))
-    particles.kind[:] = kinds
+    particles.role[:] = roles
     particles.velocity[:] = np.outer([speed, -speed], e)
     return particles
 
 
-def messy(kinds=(FLUID, FLUID, WALL, DUMMY, PISTON, PISTON_DUMMY), dim=3, seed=5):
-    """Crowded cloud of particles of several kinds in random motion."""
+def messy(roles=(FLUID, FACE, FILLER), dim=3, seed=5):
+    """Crowded cloud of particles of several roles in random motion."""
     random = np.random.default_rng(seed)
     particles = particles_at(0.8 * cloud(dim, 400, seed))
-    particles.kind[:] = random.choice(kinds, len(particles))
+    particles.role[:] = random.choice(roles, len(particles))
     particles.velocity[:] = random.normal(size=(len(particles), 3)) * [1.0, dim - 2.0, 1.0]
     return particles
 
@@ -71,7 +71,7 @@ def test_lattice_at_rest_stays_as_it_is(name, dim):
 @pytest.mark.parametrize("name", NAMES)
 def test_walls_and_piston_are_never_moved(name):
     particles = messy()
-    solid = particles.kind != FLUID
+    solid = particles.role != FLUID
     move, change = apply(name, particles, before=moved_from(particles))
     assert np.all(move[solid] == 0.0)
     assert np.all(change[solid] == 0.0)
@@ -121,7 +121,7 @@ def test_2d_particles_stay_in_their_plane(name):
 @pytest.mark.parametrize("dim", [2, 3])
 @pytest.mark.parametrize("name", ["ds", "collision"])
 def test_momentum_is_conserved_between_fluid_particles(name, dim):
-    particles = messy(kinds=(FLUID,), dim=dim)
+    particles = messy(roles=(FLUID,), dim=dim)
     _, change = apply(name, particles, before=moved_from(particles) * [1, dim - 2, 1], dim=dim)
     assert np.count_nonzero(change) > 100
     assert np.linalg.norm(change.sum(axis=0)) < 1e-13 * np.linalg.norm(change, axis=1).sum()
@@ -155,22 +155,20 @@ def test_ds_takes_a_glancing_pair_apart_along_its_old_direction():
     assert np.abs(np.cross(move, along)).max() < 1e-15
 
 
-@pytest.mark.parametrize("kind", [DUMMY, PISTON_DUMMY])
-def test_ds_leaves_the_layers_behind_a_wall_to_the_wall(kind):
-    move, _ = apply("ds", pair(0.6, kinds=(FLUID, kind)), before=pair(1.0).position)
+def test_ds_leaves_the_layers_behind_a_wall_to_the_wall():
+    move, _ = apply("ds", pair(0.6, roles=(FLUID, FILLER)), before=pair(1.0).position)
     assert np.all(move == 0.0)
 
 
-@pytest.mark.parametrize("kind", [WALL, PISTON])
-def test_ds_takes_water_all_the_way_off_a_wall(kind):
-    particles = pair(0.6, kinds=(FLUID, kind))
+def test_ds_takes_water_all_the_way_off_a_wall():
+    particles = pair(0.6, roles=(FLUID, FACE))
     apply("ds", particles, before=pair(1.0).position)
     assert np.linalg.norm(np.diff(particles.position, axis=0)) == pytest.approx(0.9, rel=1e-13)
 
 
-@pytest.mark.parametrize("kinds", [(FLUID, FLUID), (FLUID, WALL)])
-def test_ds_leaves_pairs_at_its_distance_alone(kinds):
-    move, _ = apply("ds", pair(0.9 + 1e-12, kinds=kinds), before=pair(1.0).position)
+@pytest.mark.parametrize("roles", [(FLUID, FLUID), (FLUID, FACE)])
+def test_ds_leaves_pairs_at_its_distance_alone(roles):
+    move, _ = apply("ds", pair(0.9 + 1e-12, roles=roles), before=pair(1.0).position)
     assert np.all(move == 0.0)
 
 
@@ -251,9 +249,9 @@ def test_corrected_shifting_stills_the_force_of_a_constant_pressure():
 
     def force():
         found, out = neighbors_of(particles.position, 2.1), np.empty((len(particles), 3))
-        c = matrices_of(particles.position, particles.kind, found, stencil)
+        c = matrices_of(particles.position, particles.role, found, stencil)
         plugins.load("gradients", "corrected").gradient(
-            particles.position, np.ones(len(particles)), particles.kind, found.indptr,
+            particles.position, np.ones(len(particles)), particles.role, found.indptr,
             found.indices, stencil, c, out,
         )  # fmt: skip
         return np.sqrt(np.mean(out[core] ** 2))
@@ -288,9 +286,9 @@ def test_collision_reverses_the_approach_with_the_restitution(restitution):
     assert (particles.velocity[0] - particles.velocity[1]) @ e == pytest.approx(-4.0 * restitution)
 
 
-@pytest.mark.parametrize("kind", [WALL, PISTON, DUMMY])
-def test_collision_with_a_wall_reverses_the_approach_of_the_water_alone(kind):
-    particles = pair(0.4, kinds=(FLUID, kind), speed=2.0)
+@pytest.mark.parametrize("role", [FACE, FILLER])
+def test_collision_with_a_wall_reverses_the_approach_of_the_water_alone(role):
+    particles = pair(0.4, roles=(FLUID, role), speed=2.0)
     particles.velocity[1] = 0.0
     apply("collision", particles, restitution=0.2)
     e = np.array([0.6, 0.0, 0.8])

@@ -56,7 +56,7 @@ def test_piston_pushes_the_water_ahead_and_lets_none_through():
     face = flow.piston.face(flow.time)
     assert flow.time == pytest.approx(0.2)
     assert face > 2.0 * D0
-    assert flow.particles.position[flow.particles.kind == PISTON, 0].max() == pytest.approx(
+    assert flow.particles.position[flow.particles.body == PISTON, 0].max() == pytest.approx(
         face - 0.5 * D0
     )
     assert flow.particles.position[water, 0].min() > face

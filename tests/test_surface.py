@@ -5,14 +5,14 @@ import pytest
 from tanks import cloud, inside, lattice, neighbors_of, particles_at
 
 from mpslab.kernels import density
-from mpslab.particles import DUMMY, FLUID, WALL
+from mpslab.particles import FACE, FILLER, FLUID
 from mpslab.stencil import make_stencil
 from mpslab.surface import mark_surface
 
 
-def marked(position, dim, radius=2.1, kind=FLUID, search=None, threshold=0.97):
+def marked(position, dim, radius=2.1, role=FLUID, search=None, threshold=0.97):
     """Particles with number density and surface mark, spacing 1."""
-    particles = particles_at(np.asarray(position, float), kind)
+    particles = particles_at(np.asarray(position, float), role)
     found = neighbors_of(particles.position, search or radius)
     stencil = make_stencil(dim, 1.0, radius)
     density.number_density(
@@ -103,18 +103,18 @@ def test_only_neighbours_inside_the_radius_count():
     assert particles.surface.tolist() == [1] * 7
 
 
-@pytest.mark.parametrize("kind", [FLUID, WALL])
-def test_mark_does_not_depend_on_how_far_the_list_reaches(kind):
+@pytest.mark.parametrize("role", [FLUID, FACE])
+def test_mark_does_not_depend_on_how_far_the_list_reaches(role):
     random = np.random.default_rng(1)
     position = lattice(3, 3)[random.random(343) < 0.6]
-    near, _ = marked(position, 3, kind=kind)
-    far, _ = marked(position, 3, kind=kind, search=3.1)
+    near, _ = marked(position, 3, role=role)
+    far, _ = marked(position, 3, role=role, search=3.1)
     np.testing.assert_array_equal(near.surface, far.surface)
 
 
 def test_dry_walls_are_surface_and_dummies_never():
-    kind = np.array([WALL, DUMMY, FLUID])
-    particles, _ = marked(np.diag([10.0, 20.0, 30.0]), 3, kind=kind)
+    role = np.array([FACE, FILLER, FLUID])
+    particles, _ = marked(np.diag([10.0, 20.0, 30.0]), 3, role=role)
     assert particles.surface.tolist() == [1, 0, 1]
 
 

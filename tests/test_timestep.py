@@ -6,7 +6,7 @@ from tanks import make_case, particles_at
 
 from mpslab import timestep
 from mpslab.diagnostics import max_speed
-from mpslab.particles import DUMMY, FLUID, GATE, PISTON, WALL
+from mpslab.particles import FACE, FILLER, FIRST_SOLID, FLUID, PISTON, TANK, WATER, make_particles
 
 TIME = {"courant": 0.2, "viscous": 0.25, "growth": 1.1, "maximum": 1e-3, "start": 1e-4}
 
@@ -66,10 +66,14 @@ def test_time_step_shrinks_at_once_and_grows_by_a_tenth():
 
 
 @pytest.mark.parametrize(
-    ("kind", "speed"), [(FLUID, 5), (PISTON, 5), (GATE, 5), (WALL, 0), (DUMMY, 0)]
-)
-def test_speed_is_that_of_water_piston_and_gates(kind, speed):
-    particles = particles_at(np.zeros((2, 3)), np.array([FLUID, kind]))
+    ("role", "body", "speed"),
+    [
+        (FLUID, WATER, 5), (FACE, PISTON, 5), (FACE, FIRST_SOLID, 5), (FACE, TANK, 0),
+        (FILLER, TANK, 0), (FILLER, PISTON, 0),
+    ],
+)  # fmt: skip
+def test_speed_is_that_of_water_and_faces_that_move(role, body, speed):
+    particles = make_particles(np.zeros((2, 3)), [FLUID, role], [WATER, body])
     particles.velocity[1] = [3.0, 0.0, -4.0]
     assert max_speed(particles) == speed
 

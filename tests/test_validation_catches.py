@@ -6,7 +6,7 @@ import pytest
 from markupsafe import escape
 
 from mpslab import geometry, tank
-from mpslab.particles import WALL, ParticleSet
+from mpslab.particles import FACE, ParticleSet
 from mpslab.plugins import load
 from validation import report, result, suite
 from validation.work import FAILED, Outcome, Task, Work
@@ -64,7 +64,7 @@ def leave_out_walls(monkeypatch):
 
     def without(case, backmost=0.0):
         particles = build(case, backmost)
-        keep = particles.kind != WALL
+        keep = particles.role != FACE
         return ParticleSet(**{name: array[keep] for name, array in vars(particles).items()})
 
     monkeypatch.setattr(geometry, "build_particles", without)

@@ -5,18 +5,18 @@ import pytest
 from tanks import cloud, inside, lattice, neighbors_of
 
 from mpslab.kernels import viscosity
-from mpslab.particles import DUMMY, FLUID, PISTON, WALL
+from mpslab.particles import FACE, FILLER, FLUID
 from mpslab.stencil import make_stencil
 
 NU = 0.3
 
 
-def acceleration(position, velocity, dim, radius=2.1, kind=None, slip=True):
-    kind = np.zeros(len(position), np.int8) if kind is None else np.asarray(kind, np.int8)
+def acceleration(position, velocity, dim, radius=2.1, role=None, slip=True):
+    role = np.zeros(len(position), np.int8) if role is None else np.asarray(role, np.int8)
     found, stencil = neighbors_of(position, radius * 1.2), make_stencil(dim, 1.0, radius)
     out = np.zeros_like(position)
     viscosity.viscous_acceleration(
-        position, velocity, kind, found.indptr, found.indices, stencil, NU, slip, out
+        position, velocity, role, found.indptr, found.indices, stencil, NU, slip, out
     )
     return out
 
@@ -51,14 +51,14 @@ def test_energy_is_lost_and_never_gained():
     assert np.sum(acceleration(position, velocity, 3) * velocity) < 0.0
 
 
-@pytest.mark.parametrize("wall", [WALL, DUMMY, PISTON])
+@pytest.mark.parametrize("wall", [FACE, FILLER])
 def test_walls_brake_the_water_only_without_slip(wall):
     position = lattice(3, 3)
-    kind = np.where(position[:, 2] < 0.0, wall, FLUID)
+    role = np.where(position[:, 2] < 0.0, wall, FLUID)
     velocity = np.zeros_like(position)
-    velocity[kind == FLUID, 0] = 2.0
-    slip = acceleration(position, velocity, 3, kind=kind, slip=True)
-    rough = acceleration(position, velocity, 3, kind=kind, slip=False)
+    velocity[role == FLUID, 0] = 2.0
+    slip = acceleration(position, velocity, 3, role=role, slip=True)
+    rough = acceleration(position, velocity, 3, role=role, slip=False)
     assert np.all(slip == 0.0)
     assert np.all(rough[position[:, 2] == 0.0, 0] < 0.0)
-    assert np.all(rough[kind != FLUID] == 0.0)
+    assert np.all(rough[role != FLUID] == 0.0)

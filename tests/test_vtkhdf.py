@@ -45,9 +45,10 @@ def assert_same_frames(path, frames):
     found = list(vtkhdf.read_frames(path))
     assert [time for time, _ in found] == [time for time, _ in frames]
     for (_, frame), (_, particles) in zip(found, frames, strict=True):
-        assert set(frame) == {"position", "kind", *FIELDS}
+        assert set(frame) == {"position", "kind", "body", *FIELDS}
         for name, array in frame.items():
-            np.testing.assert_array_equal(array, getattr(particles, name).astype(array.dtype))
+            written = getattr(particles, "role" if name == "kind" else name)
+            np.testing.assert_array_equal(array, written.astype(array.dtype))
 
 
 def test_frames_come_back(path, frames):
@@ -71,7 +72,7 @@ def test_a_writer_does_not_stop_a_reader(path, frames):
 def test_kind_is_written_though_not_asked_for(tmp_path):
     series = vtkhdf.ParticleSeries(tmp_path / "p.vtkhdf", [])
     series.append(0.0, cloud(5, 1))
-    assert set(vtkhdf.read_frame(series.path, 0)) == {"position", "kind"}
+    assert set(vtkhdf.read_frame(series.path, 0)) == {"position", "kind", "body"}
 
 
 def test_layout_is_that_of_vtkhdf_2(path):
@@ -149,7 +150,7 @@ def test_vtk_reads_the_series(path, frames, cut):
         np.testing.assert_array_equal(mesh.verts[1::2], np.arange(len(particles)))
         np.testing.assert_array_equal(mesh.points, particles.position.astype(np.float32))
         np.testing.assert_array_equal(mesh["velocity"], particles.velocity.astype(np.float32))
-        np.testing.assert_array_equal(mesh["kind"], particles.kind)
+        np.testing.assert_array_equal(mesh["kind"], particles.role)
 
 
 def test_pyvista_reads_a_frame_of_a_run_as_the_documentation_says(tmp_path):

@@ -6,7 +6,7 @@ from tanks import flow_of, inside, lattice, make_case, neighbors_of, run
 
 from mpslab import plugins, surface, walls
 from mpslab.kernels import density
-from mpslab.particles import FLUID, PISTON, WALL, make_particles
+from mpslab.particles import FACE, FLUID, PISTON, WATER, make_particles
 from mpslab.stencil import make_stencil
 
 RHO, G, DT = 1000.0, 9.81, 1e-3
@@ -15,12 +15,12 @@ RHO, G, DT = 1000.0, 9.81, 1e-3
 def tank(dim=3, jitter=0.1, half=4):
     """Water above z = -0.5 and walls below it, spacing 1, hydrostatic pressure everywhere."""
     position = lattice(dim, half)
-    kind = np.where(position[:, 2] < -0.5, WALL, FLUID)
+    role = np.where(position[:, 2] < -0.5, FACE, FLUID)
     move = np.random.default_rng(2).uniform(-jitter, jitter, position.shape)
-    position += move * [1.0, dim - 2.0, 1.0] * (kind == FLUID)[:, None]
-    particles = make_particles(position, kind)
+    position += move * [1.0, dim - 2.0, 1.0] * (role == FLUID)[:, None]
+    particles = make_particles(position, role)
     particles.pressure[:] = RHO * G * (10.0 - position[:, 2])
-    return particles, neighbors_of(position, 2.1, active=kind == FLUID)
+    return particles, neighbors_of(position, 2.1, active=role == FLUID)
 
 
 def pull_of(particles):
@@ -32,7 +32,7 @@ def test_extrapolated_pressure_of_still_water_is_exact_in_any_arrangement(dim):
     particles, found = tank(dim)
     exact = particles.pressure.copy()
     walls.fill(particles, found, make_stencil(dim, 1.0, 2.1), RHO, pull_of(particles), True)
-    reached = (particles.kind == WALL) & (particles.pressure > 0.0)
+    reached = (particles.role == FACE) & (particles.pressure > 0.0)
     assert np.count_nonzero(reached) > 9
     np.testing.assert_allclose(particles.pressure[reached], exact[reached], rtol=1e-12)
     far = particles.position[:, 2] < -3.5
@@ -47,7 +47,7 @@ def test_laplacian_of_hydrostatic_pressure_vanishes_beside_a_wall(dim):
     share = walls.flux(particles, found, stencil, terms, pull_of(particles))
     for i in np.flatnonzero(inside(particles.position, 1.0) & particles.fluid):
         j = found.indices[found.indptr[i] : found.indptr[i + 1]]
-        j = j[particles.kind[j] == FLUID]
+        j = j[particles.role[j] == FLUID]
         r = np.linalg.norm(particles.position[j] - particles.position[i], axis=1)
         laplacian = np.sum((terms[0] + terms[1] / r) * (particles.pressure[j] -
                            particles.pressure[i]))  # fmt: skip
@@ -55,7 +55,7 @@ def test_laplacian_of_hydrostatic_pressure_vanishes_beside_a_wall(dim):
 
 
 def test_pull_of_an_accelerating_piston_is_gravity_less_its_acceleration():
-    particles = make_particles(np.zeros((2, 3)), [FLUID, PISTON])
+    particles = make_particles(np.zeros((2, 3)), [FLUID, FACE], [WATER, PISTON])
     particles.velocity[1, 0] = 0.3
     pull = walls.pull(particles, np.array([[0.0, 0, 0], [0.1, 0, 0]]), G, 0.1)
     np.testing.assert_allclose(pull, [[0.0, 0.0, -G], [-2.0, 0.0, -G]])

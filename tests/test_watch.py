@@ -7,6 +7,7 @@ import pytest
 from tanks import flow_of, make_case, particles_at
 
 from mpslab import load_case
+from mpslab.particles import FACE, FILLER
 from mpslab.sparse import SolverReport
 from mpslab.watch import RunFailed, check_lost, check_step, find_lost
 
@@ -114,8 +115,8 @@ def test_small_run_bears_a_few_lost_particles(flow, lost):
     check_lost(flow, lost, {"over the end wall": lost}, 200, 7)
 
 
-def lost_at(case, position, face=0.0, kind=0):
-    particles = particles_at(np.array([position, [0.02, 0.0, 0.01]]), np.array([kind, 0]))
+def lost_at(case, position, face=0.0, role=0):
+    particles = particles_at(np.array([position, [0.02, 0.0, 0.01]]), np.array([role, 0]))
     return [(lost.rows.tolist(), lost.reason) for lost in find_lost(case, particles, face)]
 
 
@@ -136,9 +137,9 @@ def test_water_beyond_a_wall_by_more_than_a_spacing_is_lost(limit, outwards, rea
     assert lost_at(case, limit - outwards) == []
 
 
-@pytest.mark.parametrize("kind", [1, 2, 3, 4])
-def test_walls_are_never_lost(kind):
-    assert lost_at(make_case(), [-1.0, 0.0, -1.0], kind=kind) == []
+@pytest.mark.parametrize("role", [FACE, FILLER])
+def test_walls_are_never_lost(role):
+    assert lost_at(make_case(), [-1.0, 0.0, -1.0], role=role) == []
 
 
 def test_wavemaker_takes_its_limit_along():

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from mpslab import vtkhdf
-from mpslab.particles import FLUID
+from mpslab.kinds import FLUID
 from mpslab.pictures import read_case, read_table
 
 

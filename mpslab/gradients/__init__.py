@@ -2,9 +2,9 @@
 
 Each module has one function::
 
-    gradient(position, pressure, kind, indptr, indices, stencil, correction, out)
+    gradient(position, pressure, role, indptr, indices, stencil, correction, out)
 
-    position : (n, 3) float64 [m];  pressure : (n,) float64 [Pa];  kind : (n,) int8
+    position : (n, 3) float64 [m];  pressure : (n,) float64 [Pa];  role : (n,) int8
     indptr, indices : rows of the neighbour list, int32
     stencil : mpslab.stencil.Stencil
     correction : (n, 6) float64, matrices of mpslab.correction; None without NEEDS_CORRECTION

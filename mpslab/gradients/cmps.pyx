@@ -9,7 +9,7 @@ EXACT_FOR_LINEAR = False
 
 
 def gradient(const double[:, ::1] position, const double[::1] pressure,
-             const signed char[::1] kind, const int[::1] indptr, const int[::1] indices,
+             const signed char[::1] role, const int[::1] indptr, const int[::1] indices,
              stencil, correction, double[:, ::1] out):
     """<grad p>_i = (Ds/n0) sum_j ((p_i + p_j) - (p^_i + p^_j)) r_ij w / r^2.
 
@@ -22,11 +22,11 @@ def gradient(const double[:, ::1] position, const double[::1] pressure,
     cdef double[::1] least = np.empty(pressure.shape[0])
     cdef double dx, dy, dz, r, c, gx, gy, gz
     cdef Py_ssize_t i, k, j
-    least_pressure(position, pressure, kind, indptr, indices, stencil, least)
+    least_pressure(position, pressure, role, indptr, indices, stencil, least)
     with nogil:
         for i in range(indptr.shape[0] - 1):
             gx = gy = gz = 0.0
-            for k in range(indptr[i], indptr[i + 1] if kind[i] == FLUID else indptr[i]):
+            for k in range(indptr[i], indptr[i + 1] if role[i] == FLUID else indptr[i]):
                 j = indices[k]
                 dx = position[j, 0] - position[i, 0]
                 dy = wrap(position[j, 1] - position[i, 1], width)
@@ -34,7 +34,7 @@ def gradient(const double[:, ::1] position, const double[::1] pressure,
                 r = distance(dx, dy, dz, floor)
                 c = ((pressure[i] + pressure[j]) - (least[i] + least[j])) * weight(r, radius)
                 c = c / (r * r)
-                c = c if has_pressure(kind[j]) else 0.0
+                c = c if has_pressure(role[j]) else 0.0
                 gx += c * dx
                 gy += c * dy
                 gz += c * dz

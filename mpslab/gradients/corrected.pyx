@@ -9,7 +9,7 @@ NEEDS_CORRECTION = True
 
 
 def gradient(const double[:, ::1] position, const double[::1] pressure,
-             const signed char[::1] kind, const int[::1] indptr, const int[::1] indices,
+             const signed char[::1] role, const int[::1] indptr, const int[::1] indices,
              stencil, const double[:, ::1] c, double[:, ::1] out):
     """<grad p>_i = (Ds/n0) sum_j (p_i C_j + p_j C_i) r_ij w / r^2 (Zhang, Adams & Hu 2024).
 
@@ -19,14 +19,14 @@ def gradient(const double[:, ::1] position, const double[::1] pressure,
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = stencil.dim / stencil.n0
-    cdef const double[::1] water = shares.of_water(kind), loaded = shares.of_loaded(kind)
+    cdef const double[::1] water = shares.of_water(role), loaded = shares.of_loaded(role)
     cdef double dx, dy, dz, r, w, pi, a, b, xx, yy, zz, xy, xz, yz, gx, gy, gz
     cdef Py_ssize_t i, k, j
     with nogil:
         for i in range(indptr.shape[0] - 1):
             gx = gy = gz = 0.0
             pi = pressure[i]
-            for k in range(indptr[i], indptr[i + 1] if kind[i] == FLUID else indptr[i]):
+            for k in range(indptr[i], indptr[i + 1] if role[i] == FLUID else indptr[i]):
                 j = indices[k]
                 dx = position[j, 0] - position[i, 0]
                 dy = wrap(position[j, 1] - position[i, 1], width)

@@ -10,7 +10,7 @@ LEAST_DETERMINANT = {2: 0.05, 3: 0.05}
 
 
 def gradient(const double[:, ::1] position, const double[::1] pressure,
-             const signed char[::1] kind, const int[::1] indptr, const int[::1] indices,
+             const signed char[::1] role, const int[::1] indptr, const int[::1] indices,
              stencil, correction, double[:, ::1] out):
     """<grad p>_i = C_i (Ds/n0) sum_j (p_j - p_i) r_ij w / r^2 (Khayyer & Gotoh 2011).
 
@@ -22,19 +22,19 @@ def gradient(const double[:, ::1] position, const double[::1] pressure,
     cdef double[:, ::1] c = np.empty((pressure.shape[0], 6))
     cdef double dx, dy, dz, r, w, gx, gy, gz
     cdef Py_ssize_t i, k, j
-    correction_matrix(position, kind, indptr, indices, stencil, False,
+    correction_matrix(position, role, indptr, indices, stencil, False,
                       LEAST_DETERMINANT[stencil.dim], c)
     with nogil:
         for i in range(indptr.shape[0] - 1):
             gx = gy = gz = 0.0
-            for k in range(indptr[i], indptr[i + 1] if kind[i] == FLUID else indptr[i]):
+            for k in range(indptr[i], indptr[i + 1] if role[i] == FLUID else indptr[i]):
                 j = indices[k]
                 dx = position[j, 0] - position[i, 0]
                 dy = wrap(position[j, 1] - position[i, 1], width)
                 dz = position[j, 2] - position[i, 2]
                 r = distance(dx, dy, dz, floor)
                 w = (pressure[j] - pressure[i]) * weight(r, radius) / (r * r)
-                w = w if has_pressure(kind[j]) else 0.0
+                w = w if has_pressure(role[j]) else 0.0
                 gx += w * dx
                 gy += w * dy
                 gz += w * dz

@@ -6,7 +6,7 @@ EXACT_FOR_LINEAR = False
 
 
 def gradient(const double[:, ::1] position, const double[::1] pressure,
-             const signed char[::1] kind, const int[::1] indptr, const int[::1] indices,
+             const signed char[::1] role, const int[::1] indptr, const int[::1] indices,
              stencil, correction, double[:, ::1] out):
     """<grad p>_i = (Ds/n0) sum_j (p_i + p_j) r_ij w / r^2: equal and opposite pair forces."""
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
@@ -16,14 +16,14 @@ def gradient(const double[:, ::1] position, const double[::1] pressure,
     with nogil:
         for i in range(indptr.shape[0] - 1):
             gx = gy = gz = 0.0
-            for k in range(indptr[i], indptr[i + 1] if kind[i] == FLUID else indptr[i]):
+            for k in range(indptr[i], indptr[i + 1] if role[i] == FLUID else indptr[i]):
                 j = indices[k]
                 dx = position[j, 0] - position[i, 0]
                 dy = wrap(position[j, 1] - position[i, 1], width)
                 dz = position[j, 2] - position[i, 2]
                 r = distance(dx, dy, dz, floor)
                 c = (pressure[i] + pressure[j]) * weight(r, radius) / (r * r)
-                c = c if has_pressure(kind[j]) else 0.0
+                c = c if has_pressure(role[j]) else 0.0
                 gx += c * dx
                 gy += c * dy
                 gz += c * dz

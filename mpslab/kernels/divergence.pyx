@@ -79,7 +79,7 @@ def corrected_divergence(const double[:, ::1] position, const double[:, ::1] vel
 
 
 def adjoint_divergence(const double[:, ::1] position, const double[:, ::1] velocity,
-                       const signed char[::1] kind, const int[::1] indptr,
+                       const signed char[::1] role, const int[::1] indptr,
                        const int[::1] indices, stencil, const double[:, ::1] c,
                        double[::1] out):
     """<div u>_i = (Ds/n0) sum_j u_ij . C_j r_ij w / r^2: adjoint of the conservative gradient [1/s].
@@ -91,7 +91,7 @@ def adjoint_divergence(const double[:, ::1] position, const double[:, ::1] veloc
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = stencil.dim / stencil.n0
-    cdef const double[::1] water = shares.of_water(kind)
+    cdef const double[::1] water = shares.of_water(role)
     cdef double dx, dy, dz, r, ux, uy, uz, a, b, total
     cdef Py_ssize_t i, k, j
     with nogil:

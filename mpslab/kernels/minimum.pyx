@@ -3,7 +3,7 @@ from mpslab.kernels.pair cimport distance, has_pressure, wrap
 
 
 def least_pressure(const double[:, ::1] position, const double[::1] pressure,
-                   const signed char[::1] kind, const int[::1] indptr, const int[::1] indices,
+                   const signed char[::1] role, const int[::1] indptr, const int[::1] indices,
                    stencil, double[::1] out):
     """p^_i = min of p over the particle itself and its neighbours (equation 3 of the paper) [Pa].
 
@@ -17,7 +17,7 @@ def least_pressure(const double[:, ::1] position, const double[::1] pressure,
             least = pressure[i]
             for k in range(indptr[i], indptr[i + 1]):
                 j = indices[k]
-                if has_pressure(kind[j]) and pressure[j] < least:
+                if has_pressure(role[j]) and pressure[j] < least:
                     if distance(position[j, 0] - position[i, 0],
                                 wrap(position[j, 1] - position[i, 1], width),
                                 position[j, 2] - position[i, 2], floor) < radius:

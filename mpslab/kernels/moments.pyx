@@ -6,7 +6,7 @@ from mpslab.kernels.pair cimport distance, weight, wrap
 from mpslab.kernels import shares
 
 
-def correction_matrix(const double[:, ::1] position, const signed char[::1] kind,
+def correction_matrix(const double[:, ::1] position, const signed char[::1] role,
                       const int[::1] indptr, const int[::1] indices, stencil, bint dummies,
                       double least_determinant, double[:, ::1] out):
     """C_i = [(Ds/n0) sum_j w r_ij (x) r_ij / r^2]^-1 (Khayyer & Gotoh 2011) [-].
@@ -17,7 +17,7 @@ def correction_matrix(const double[:, ::1] position, const signed char[::1] kind
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = stencil.dim / stencil.n0
-    cdef const double[::1] share = np.ones(kind.shape[0]) if dummies else shares.of_loaded(kind)
+    cdef const double[::1] share = np.ones(role.shape[0]) if dummies else shares.of_loaded(role)
     cdef bint flat = stencil.dim == 2
     cdef double dx, dy, dz, r, w, xx, yy, zz, xy, xz, yz, det
     cdef Py_ssize_t i, k, j

@@ -1,20 +1,16 @@
 # Geometry of a pair of particles, inlined into every kernel.
 from libc.math cimport sqrt
 
-# Kinds of particles, as in mpslab/particles.py.
+# Roles of particles, as in mpslab/particles.py.
 cdef enum:
     FLUID = 0
-    WALL = 1
-    DUMMY = 2
-    PISTON = 3
-    PISTON_DUMMY = 4
-    GATE = 5
-    GATE_DUMMY = 6
+    FACE = 1
+    FILLER = 2
 
 
-cdef inline bint has_pressure(signed char kind) noexcept nogil:
-    """Fluid, wall, piston and gate particles carry a pressure; layers behind walls do not."""
-    return kind == FLUID or kind == WALL or kind == PISTON or kind == GATE
+cdef inline bint has_pressure(signed char role) noexcept nogil:
+    """Water and the faces of solids carry a pressure; the layers behind the faces do not."""
+    return role != FILLER
 
 
 cdef inline double wrap(double dy, double width) noexcept nogil:

@@ -6,7 +6,7 @@ cdef enum:
     LANES = 64
 
 
-def assemble(const double[:, ::1] position, const signed char[::1] kind, const int[::1] indptr,
+def assemble(const double[:, ::1] position, const signed char[::1] role, const int[::1] indptr,
              const int[::1] indices, const int[::1] rows, const int[::1] unknown, stencil,
              pair_terms, double scale, int[::1] row, int[::1] column, float[::1] value,
              double[::1] diagonal, double[::1] excess):
@@ -43,7 +43,7 @@ def assemble(const double[:, ::1] position, const signed char[::1] kind, const i
                         radius, one, inverse, cubic)
                 for k in range(begin, end):
                     j, a = indices[k], <float>pair[k - begin]
-                    if a == 0.0 or not has_pressure(kind[j]):
+                    if a == 0.0 or not has_pressure(role[j]):
                         continue
                     total += a
                     if unknown[j] < 0:

@@ -8,7 +8,7 @@ from mpslab.kernels.pair cimport FLUID, distance, has_pressure, weight, wrap
 from mpslab.kernels import shares
 
 
-def shifting(const double[:, ::1] position, const signed char[::1] kind,
+def shifting(const double[:, ::1] position, const signed char[::1] role,
              const unsigned char[::1] surface, const int[::1] indptr, const int[::1] indices,
              stencil, const double[:, ::1] c, double factor, double longest,
              double[:, ::1] out):
@@ -20,13 +20,13 @@ def shifting(const double[:, ::1] position, const signed char[::1] kind,
     factor : [m2]
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
-    cdef const double[::1] water = shares.of_water(kind), free = np.asarray(surface, float)
+    cdef const double[::1] water = shares.of_water(role), free = np.asarray(surface, float)
     cdef double dx, dy, dz, r, w, a, b, xx, yy, zz, xy, xz, yz, sx, sy, sz, near_surface, length
     cdef Py_ssize_t i, k, j
     with nogil:
         for i in range(indptr.shape[0] - 1):
             out[i, 0] = out[i, 1] = out[i, 2] = 0.0
-            if kind[i] != FLUID or surface[i]:
+            if role[i] != FLUID or surface[i]:
                 continue
             sx = sy = sz = 0.0
             near_surface = 0.0
@@ -59,7 +59,7 @@ def shifting(const double[:, ::1] position, const signed char[::1] kind,
 
 
 def overlap(const double[:, ::1] position, const double[:, ::1] before,
-            const double[:, ::1] velocity, const signed char[::1] kind, const int[::1] indptr,
+            const double[:, ::1] velocity, const signed char[::1] role, const int[::1] indptr,
             const int[::1] indices, stencil, double closest, double dt, double[:, ::1] move,
             double[:, ::1] change):
     """Displacement that takes pairs closer than `closest` apart (after Tsuruta et al. 2013) [m],
@@ -78,7 +78,7 @@ def overlap(const double[:, ::1] position, const double[:, ::1] before,
         for i in range(indptr.shape[0] - 1):
             move[i, 0] = move[i, 1] = move[i, 2] = 0.0
             change[i, 0] = change[i, 1] = change[i, 2] = 0.0
-            if kind[i] != FLUID:
+            if role[i] != FLUID:
                 continue
             sx = sy = sz = ux = uy = uz = 0.0
             for k in range(indptr[i], indptr[i + 1]):
@@ -87,7 +87,7 @@ def overlap(const double[:, ::1] position, const double[:, ::1] before,
                 dy = wrap(position[j, 1] - position[i, 1], width)
                 dz = position[j, 2] - position[i, 2]
                 rr = dx * dx + dy * dy + dz * dz
-                if rr >= closest * closest or not has_pressure(kind[j]):
+                if rr >= closest * closest or not has_pressure(role[j]):
                     continue
                 ex = before[j, 0] - before[i, 0]
                 ey = wrap(before[j, 1] - before[i, 1], width)
@@ -105,7 +105,7 @@ def overlap(const double[:, ::1] position, const double[:, ::1] before,
                             + (velocity[i, 1] - velocity[j, 1]) * ey
                             + (velocity[i, 2] - velocity[j, 2]) * ez)
                 approach = min(max(approach, 0.0), push / dt)
-                share = 0.5 if kind[j] == FLUID else 1.0
+                share = 0.5 if role[j] == FLUID else 1.0
                 sx -= share * push * ex
                 sy -= share * push * ey
                 sz -= share * push * ez
@@ -121,7 +121,7 @@ def overlap(const double[:, ::1] position, const double[:, ::1] before,
 
 
 def collision(const double[:, ::1] position, const double[:, ::1] velocity,
-              const signed char[::1] kind, const int[::1] indptr, const int[::1] indices,
+              const signed char[::1] role, const int[::1] indptr, const int[::1] indices,
               stencil, double closest, double restitution, double[:, ::1] out):
     """Change of velocity where approaching pairs are closer than `closest` [m/s].
 
@@ -134,7 +134,7 @@ def collision(const double[:, ::1] position, const double[:, ::1] velocity,
     with nogil:
         for i in range(indptr.shape[0] - 1):
             out[i, 0] = out[i, 1] = out[i, 2] = 0.0
-            if kind[i] != FLUID:
+            if role[i] != FLUID:
                 continue
             sx = sy = sz = 0.0
             for k in range(indptr[i], indptr[i + 1]):
@@ -150,7 +150,7 @@ def collision(const double[:, ::1] position, const double[:, ::1] velocity,
                             + (velocity[i, 2] - velocity[j, 2]) * dz) / r
                 if approach <= 0.0:
                     continue
-                approach *= (1.0 + restitution) * (0.5 if kind[j] == FLUID else 1.0) / r
+                approach *= (1.0 + restitution) * (0.5 if role[j] == FLUID else 1.0) / r
                 sx -= approach * dx
                 sy -= approach * dy
                 sz -= approach * dz

@@ -8,7 +8,7 @@ from mpslab.kernels import shares
 
 
 def viscous_acceleration(const double[:, ::1] position, const double[:, ::1] velocity,
-                         const signed char[::1] kind, const int[::1] indptr,
+                         const signed char[::1] role, const int[::1] indptr,
                          const int[::1] indices, stencil, double viscosity, bint slip,
                          double[:, ::1] out):
     """nu <lap u>_i = nu (2 Ds/(lambda0 n0)) sum_j (u_j - u_i) w of the fluid particles [m/s2].
@@ -18,12 +18,12 @@ def viscous_acceleration(const double[:, ::1] position, const double[:, ::1] vel
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = viscosity * 2.0 * stencil.dim / (stencil.lambda0 * stencil.n0)
-    cdef const double[::1] share = shares.of_water(kind) if slip else np.ones(kind.shape[0])
+    cdef const double[::1] share = shares.of_water(role) if slip else np.ones(role.shape[0])
     cdef double x, y, z, w, ax, ay, az
     cdef Py_ssize_t i, k, j
     with nogil:
         for i in range(indptr.shape[0] - 1):
-            if kind[i] != FLUID:
+            if role[i] != FLUID:
                 continue
             x, y, z = position[i, 0], position[i, 1], position[i, 2]
             ax = ay = az = 0.0
@@ -41,7 +41,7 @@ def viscous_acceleration(const double[:, ::1] position, const double[:, ::1] vel
 
 
 def strain_rate(const double[:, ::1] position, const double[:, ::1] velocity,
-                const signed char[::1] kind, const int[::1] indptr, const int[::1] indices,
+                const signed char[::1] role, const int[::1] indptr, const int[::1] indices,
                 stencil, const double[:, ::1] c, bint slip, double[::1] out):
     """|S| = sqrt(2 S:S) of the water, S the symmetric part of (Ds/n0) sum_j u_ij (x) C_i r_ij w/r^2.
 
@@ -52,13 +52,13 @@ def strain_rate(const double[:, ::1] position, const double[:, ::1] velocity,
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = stencil.dim / stencil.n0
-    cdef const double[::1] share = shares.of_water(kind) if slip else np.ones(kind.shape[0])
+    cdef const double[::1] share = shares.of_water(role) if slip else np.ones(role.shape[0])
     cdef double dx, dy, dz, r, w, x, y, z, ux, uy, uz, xx, yy, zz, xy, xz, yz
     cdef Py_ssize_t i, k, j
     with nogil:
         for i in range(indptr.shape[0] - 1):
             xx = yy = zz = xy = xz = yz = 0.0
-            for k in range(indptr[i], indptr[i + 1] if kind[i] == FLUID else indptr[i]):
+            for k in range(indptr[i], indptr[i + 1] if role[i] == FLUID else indptr[i]):
                 j = indices[k]
                 dx = position[j, 0] - position[i, 0]
                 dy = wrap(position[j, 1] - position[i, 1], width)
@@ -82,7 +82,7 @@ def strain_rate(const double[:, ::1] position, const double[:, ::1] velocity,
 
 
 def eddy_acceleration(const double[:, ::1] position, const double[:, ::1] velocity,
-                      const signed char[::1] kind, const int[::1] indptr,
+                      const signed char[::1] role, const int[::1] indptr,
                       const int[::1] indices, stencil, const double[::1] eddy, bint slip,
                       double[:, ::1] out):
     """Add (2 Ds/(lambda0 n0)) sum_j (e_i + e_j)/2 (u_j - u_i) w of the fluid particles [m/s2].
@@ -91,15 +91,15 @@ def eddy_acceleration(const double[:, ::1] position, const double[:, ::1] veloci
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = stencil.dim / (stencil.lambda0 * stencil.n0)
-    cdef const double[::1] water = shares.of_water(kind)
-    cdef const double[::1] share = water if slip else np.ones(kind.shape[0])
+    cdef const double[::1] water = shares.of_water(role)
+    cdef const double[::1] share = water if slip else np.ones(role.shape[0])
     cdef double x, y, z, w, e, ax, ay, az
     cdef Py_ssize_t i, k, j
     with nogil:
         for i in range(indptr.shape[0] - 1):
             x, y, z, e = position[i, 0], position[i, 1], position[i, 2], eddy[i]
             ax = ay = az = 0.0
-            for k in range(indptr[i], indptr[i + 1] if kind[i] == FLUID else indptr[i]):
+            for k in range(indptr[i], indptr[i + 1] if role[i] == FLUID else indptr[i]):
                 j = indices[k]
                 w = share[j] * weight(distance(position[j, 0] - x,
                                                wrap(position[j, 1] - y, width),

@@ -3,7 +3,7 @@ from mpslab.kernels.pair cimport FLUID, distance, weight, wrap
 from mpslab.kernels.poisson cimport coefficient
 
 
-def flux(const double[:, ::1] position, const signed char[::1] kind, const int[::1] indptr,
+def flux(const double[:, ::1] position, const signed char[::1] role, const int[::1] indptr,
          const int[::1] indices, stencil, pair_terms, const double[:, ::1] pull,
          double[::1] out):
     """sum over the solid neighbours of L(r_ij) f_j . r_ij: the Laplacian's share of walls [1/s2].
@@ -19,7 +19,7 @@ def flux(const double[:, ::1] position, const signed char[::1] kind, const int[:
             total = 0.0
             for k in range(indptr[i], indptr[i + 1]):
                 j = indices[k]
-                if kind[j] == FLUID:
+                if role[j] == FLUID:
                     continue
                 dx = position[j, 0] - position[i, 0]
                 dy = wrap(position[j, 1] - position[i, 1], width)
@@ -29,7 +29,7 @@ def flux(const double[:, ::1] position, const signed char[::1] kind, const int[:
             out[i] = total
 
 
-def extrapolate(const double[:, ::1] position, const signed char[::1] kind,
+def extrapolate(const double[:, ::1] position, const signed char[::1] role,
                 const int[::1] indptr, const int[::1] indices, stencil, double density,
                 const double[:, ::1] pull, bint clip, double[::1] pressure, double[::1] total):
     """p_w = sum_f w (p_f + rho f_w . r_fw) / sum_f w over the water f near a solid w [Pa].
@@ -45,12 +45,12 @@ def extrapolate(const double[:, ::1] position, const signed char[::1] kind,
     with nogil:
         for i in range(indptr.shape[0] - 1):
             total[i] = 0.0
-            if kind[i] != FLUID:
+            if role[i] != FLUID:
                 pressure[i] = 0.0
         for i in range(indptr.shape[0] - 1):
             for k in range(indptr[i], indptr[i + 1]):
                 j = indices[k]
-                if kind[j] == FLUID:
+                if role[j] == FLUID:
                     continue
                 dx = position[j, 0] - position[i, 0]
                 dy = wrap(position[j, 1] - position[i, 1], width)

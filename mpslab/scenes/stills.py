@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from mpslab.headings import heading
+from mpslab.kinds import FLUID, GATE, GATE_DUMMY, PISTON
 from mpslab.panels import LABELS, MAPS, disc_size, draw_slice, draw_still_water, make_scale
-from mpslab.particles import FLUID, GATE, GATE_DUMMY, PISTON
 from mpslab.scenes import scene
 from mpslab.scenes.view import fitted
 from mpslab.snapshots import middle_slice

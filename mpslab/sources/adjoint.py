@@ -6,7 +6,7 @@ NEEDS_CORRECTION = True
 
 
 def source(
-    position, velocity, kind, number_density, indptr, indices, stencil, correction, dt, rate,
+    position, velocity, role, number_density, indptr, indices, stencil, correction, dt, rate,
     scheme, out,
 ):
     """b_i = -<div u*>_i/dt + s (n_i - n_r)/(n_r dt) [1/s2].
@@ -16,6 +16,6 @@ def source(
     neither give energy to the water nor take any.  n_r is the number density of relaxed water
     (`Stencil.relaxed`).
     """
-    adjoint_divergence(position, velocity, kind, indptr, indices, stencil, correction, out)
+    adjoint_divergence(position, velocity, role, indptr, indices, stencil, correction, out)
     out /= -dt
     out += (rate / dt) * (number_density / stencil.relaxed - 1.0)

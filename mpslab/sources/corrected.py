@@ -9,7 +9,7 @@ LEAST_DETERMINANT = 0.05
 
 
 def source(
-    position, velocity, kind, number_density, indptr, indices, stencil, correction, dt, rate,
+    position, velocity, role, number_density, indptr, indices, stencil, correction, dt, rate,
     scheme, out,
 ):
     """b_i = -<div u*>_i/dt + s (n_i - n_r)/(n_r dt) [1/s2].
@@ -18,7 +18,7 @@ def source(
     number density of relaxed water (`Stencil.relaxed`).
     """
     c = np.empty((len(position), 6))
-    correction_matrix(position, kind, indptr, indices, stencil, True, LEAST_DETERMINANT, c)
+    correction_matrix(position, role, indptr, indices, stencil, True, LEAST_DETERMINANT, c)
     corrected_divergence(position, velocity, indptr, indices, stencil, c, out)
     out /= -dt
     out += (rate / dt) * (number_density / stencil.relaxed - 1.0)

@@ -4,7 +4,7 @@ import numpy as np
 
 
 def source(
-    position, velocity, kind, number_density, indptr, indices, stencil, correction, dt, rate,
+    position, velocity, role, number_density, indptr, indices, stencil, correction, dt, rate,
     scheme, out,
 ):
     """b_i = relaxation (n*_i - n0)/(n0 dt^2) (Koshizuka & Oka 1996) [1/s2]."""

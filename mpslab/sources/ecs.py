@@ -6,7 +6,7 @@ from mpslab.kernels.divergence import density_rate
 
 
 def source(
-    position, velocity, kind, number_density, indptr, indices, stencil, correction, dt, rate,
+    position, velocity, role, number_density, indptr, indices, stencil, correction, dt, rate,
     scheme, out,
 ):
     """b_i = HS + |e_i| (Dn/Dt)_i/(n0 dt) + |dt (Dn/Dt)_i/n0| e_i/dt^2 [1/s2].

@@ -4,7 +4,7 @@ from mpslab.kernels.divergence import density_rate
 
 
 def source(
-    position, velocity, kind, number_density, indptr, indices, stencil, correction, dt, rate,
+    position, velocity, role, number_density, indptr, indices, stencil, correction, dt, rate,
     scheme, out,
 ):
     """b_i = (Dn/Dt)*_i/(n0 dt) (Khayyer & Gotoh 2009) [1/s2]."""

@@ -4,7 +4,7 @@ from mpslab.kernels.divergence import divergence
 
 
 def source(
-    position, velocity, kind, number_density, indptr, indices, stencil, correction, dt, rate,
+    position, velocity, role, number_density, indptr, indices, stencil, correction, dt, rate,
     scheme, out,
 ):
     """b_i = -<div u*>_i/dt + s (n_i - n0)/(n0 dt) (Tanaka & Masunaga 2010) [1/s2]."""

@@ -18,7 +18,7 @@ def stabilise(particles, before, neighbors, stencil, correction, dt, scheme):
     distance = scheme.collision_distance or DISTANCE[stencil.dim]
     change = np.empty_like(particles.velocity)
     repulsion.collision(
-        particles.position, particles.velocity, particles.kind, neighbors.indptr,
+        particles.position, particles.velocity, particles.role, neighbors.indptr,
         neighbors.indices, stencil, distance * stencil.spacing,
         scheme.restitution, change,
     )  # fmt: skip

@@ -15,7 +15,7 @@ def stabilise(particles, before, neighbors, stencil, correction, dt, scheme):
     move, change = np.empty_like(particles.position), np.empty_like(particles.velocity)
     for _ in range(PASSES):
         repulsion.overlap(
-            particles.position, before, particles.velocity, particles.kind, neighbors.indptr,
+            particles.position, before, particles.velocity, particles.role, neighbors.indptr,
             neighbors.indices, stencil, scheme.ds_distance * stencil.spacing, dt, move, change,
         )  # fmt: skip
         particles.position += move

@@ -17,7 +17,7 @@ def stabilise(particles, before, neighbors, stencil, correction, dt, scheme):
     move = np.empty_like(particles.position)
     factor = scheme.shifting_strength * stencil.spacing**2 / stencil.n0
     repulsion.shifting(
-        particles.position, particles.kind, particles.surface, neighbors.indptr,
+        particles.position, particles.role, particles.surface, neighbors.indptr,
         neighbors.indices, stencil, identity(len(particles)), factor,
         LONGEST * stencil.spacing, move,
     )  # fmt: skip

@@ -62,7 +62,7 @@ def _blob(name, random):
     matrices = correction.matrices(particles, found, stencil)
     force = np.zeros((len(x), 3))
     plugins.load("gradients", name).gradient(
-        particles.position, pressure, particles.kind, found.indptr, found.indices, stencil,
+        particles.position, pressure, particles.role, found.indptr, found.indices, stencil,
         matrices, force,
     )  # fmt: skip
     arm = x - x.mean(axis=0)

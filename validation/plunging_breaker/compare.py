@@ -4,7 +4,7 @@ import matplotlib
 import numpy as np
 
 from mpslab import breaking, gauges, measures, scatter, waves
-from mpslab.particles import FLUID
+from mpslab.kinds import FLUID
 from mpslab.pictures import STYLE
 from mpslab.snapshots import draw_breaker, middle_slice
 from validation.comparison import Comparison
