@@ -9,6 +9,7 @@ the tables of docs/parallel.md.
 import bisect
 import itertools
 import math
+import textwrap
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
@@ -304,19 +305,19 @@ def report(machine, tanks, rows):
 
 def _summary(tank):
     most, water = slabs_run_out(tank), tank.water
-    return (
+    return textwrap.fill(
         f"d0 = {tank.spacing * 1e3:g} mm: {tank.particles.sum():,} particles, {water.sum():,} of "
         f"water in {tank.groups.sum():,} groups, {iterations(tank.spacing):.0f} iterations a step. "
-        f"Slabs run out at {most} ranks, "
-        f"{np.count_nonzero(water == 0)} of them dry; from {ghosts_outweigh(tank)} ranks on they "
-        f"see more water of others than they own; the fullest slab holds 1/"
-        f"{water.sum() / water.max():.0f} of the water."
+        f"There are {most} slabs, {np.count_nonzero(water == 0)} of them dry, and no more ranks "
+        f"than slabs; from {ghosts_outweigh(tank)} ranks on, the ranks see more water of others "
+        f"than they own; the fullest slab holds 1/{water.sum() / water.max():.0f} of the water.",
+        width=100,
     )
 
 
 def _table(rows):
     lines = [
-        "| ranks | most water of a rank | of it seen beside | s a step | times as fast "
+        "| ranks | most water of a rank | ghost water beside it | s a step | times as fast "
         "| efficiency | messages |",
         "|---|---|---|---|---|---|---|",
     ]
