@@ -4,13 +4,14 @@ PYTHON ?= python3
 BIN := .venv/bin
 SOURCES := $(shell find mpslab -name '*.pyx' -o -name '*.pxd') setup.py pyproject.toml
 
-.PHONY: help tank test build-checked test-checked validation bench pictures lint clean
+.PHONY: help tank test build-checked test-checked validation figures bench pictures lint clean
 
 help:
 	@echo "make tank   build mpslab and run the plunging breaker; pictures land in runs/"
 	@echo "make test   build mpslab and run its tests"
 	@echo "make test-checked   the tests of the kernels again, every array index in them checked"
 	@echo "make validation     the quick validation suite; its report lands in runs/validation/quick"
+	@echo "make figures  the paper's figures at 4 mm; they land in runs/paper_figures/quick"
 	@echo "make bench  time steps on 1, 2 and 4 ranks; SPACING=0.002 for the paper's resolution"
 	@echo "make pictures   run the tank of docs and draw its pictures anew"
 	@echo "make lint   check the style of the code"
@@ -38,6 +39,9 @@ test-checked: build-checked
 
 validation: .venv/tested
 	$(BIN)/python -m validation
+
+figures: .venv/tested
+	$(BIN)/python -m paper_figures --quick --run
 
 SPACING ?= 0.004
 bench: .venv/benched

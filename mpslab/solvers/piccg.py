@@ -49,7 +49,8 @@ class Factor:
         self._forward(RED, r, z)
         self.system.refresh(z)
         self._forward(BLACK, r, z)
-        z *= self.pivot
+        own = slice(*self.system.own)  # the others come with the next refresh
+        z[own] *= self.pivot[own]
         self._backward(BLACK, z)
         self.system.refresh(z)
         coloured.hand_back(

@@ -1,0 +1,127 @@
+"""The command line: ``python -m paper_figures``."""
+
+import argparse
+import importlib
+import sys
+from pathlib import Path
+
+import matplotlib
+
+from mpslab.pictures import STYLE
+from paper_figures import agreement, kept, runs
+from paper_figures.keep import keep
+
+DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+FIGURES = ("fig_1", "fig_2", "fig_3", "fig_4", "fig_5", "table_1")
+HERE = Path(__file__).parent
+LARGEST = 400_000  # bytes of a picture
+DPI = range(160, 60, -10)
+
+
+def _parser():
+    parser = argparse.ArgumentParser(
+        prog="python -m paper_figures",
+        description="Draw every figure and table of the paper from kept results of mpslab.",
+    )
+    # fmt: off
+    parser.add_argument("--out", type=Path, metavar="DIR",
+                        help="folder of the pictures; left out, runs/paper_figures/SIZE")
+    parser.add_argument("--run", action="store_true",
+                        help="make the runs that are missing first, in the folder of the "
+                        "pictures; an interrupted one goes on")
+    parser.add_argument("--quick", dest="size", action="store_const", const="quick", default="full",
+                        help="at twice the particle spacing of the paper")
+    parser.add_argument("--only", action="append", metavar="NAME",
+                        help="a figure, with the runs that it needs, or a run; may be given "
+                        f"several times: {', '.join(FIGURES)}, "
+                        f"{', '.join(runs.read_runs('full'))}")
+    parser.add_argument("--results", type=Path, metavar="DIR",
+                        help="folder of the kept results; those of the repository if left out, "
+                        "with --run OUT/results")
+    # fmt: on
+    return parser
+
+
+def main(arguments=None):
+    """Run the command line; returns the exit status.
+
+    0: done; 1: a run has stopped before its end; 2: bad input; 130: Ctrl-C.
+    """
+    options = _parser().parse_args(arguments)
+    table = runs.read_runs(options.size)
+    unknown = set(options.only or ()) - {*FIGURES, *table}
+    if unknown:
+        return _refuse(f"--only {', '.join(sorted(unknown))}: must be out of "
+                       f"{', '.join((*FIGURES, *table))}")  # fmt: skip
+    figures = [name for name in FIGURES if not options.only or name in options.only]
+    out = options.out or Path("runs") / "paper_figures" / options.size
+    results = options.results or (out if options.run else HERE) / "results"
+    if not (options.results or options.run):
+        results /= options.size
+    try:
+        if options.run:
+            _make(_wanted(table, figures, options.only), out, results)
+        return _draw(figures, kept.read(results, table), out)
+    except runs.Failed as error:
+        print(f"paper_figures: {error}", file=sys.stderr)
+        return FAILED
+    except KeyboardInterrupt:
+        print("Stopped; the same command goes on.", file=sys.stderr)
+        return INTERRUPTED
+
+
+def _refuse(message):
+    print(f"paper_figures: {message}", file=sys.stderr)
+    return BAD_INPUT
+
+
+def _needs(name):
+    """Names of the runs that a figure is drawn from."""
+    return importlib.import_module(f"paper_figures.{name}").RUNS
+
+
+def _wanted(table, figures, only):
+    """The runs that were named, or that the figures need."""
+    names = {name for figure in figures for name in _needs(figure)} | set(only or ())
+    return [run for name, run in table.items() if name in names]
+
+
+def _make(wanted, out, results):
+    """Make runs one after the other, and keep what the figures need of each."""
+    for number, run in enumerate(wanted, 1):
+        target = results / run.name
+        if (target / "water.npz").exists():
+            continue
+        print(f"\nRun {number} of {len(wanted)}: {run.name}, {run.title}", flush=True)
+        runs.make(run, out / run.name)
+        keep(out / run.name, target, run)
+
+
+def _draw(figures, found, out):
+    """Draw what can be drawn; says what is missing for the others."""
+    out.mkdir(parents=True, exist_ok=True)
+    status = DONE
+    for name in figures:
+        missing = [run for run in _needs(name) if run not in found]
+        if missing:
+            print(f"{name}: not drawn, no results of {', '.join(missing)} (--run makes them)")
+            status = FAILED
+            continue
+        with matplotlib.rc_context(STYLE):
+            figure = importlib.import_module(f"paper_figures.{name}").draw(found)
+            print(_save(figure, out / f"{name}.png"))
+    print(agreement.write(found, out))
+    return status
+
+
+def _save(figure, path):
+    """Write a figure at the highest resolution at which its file is small enough."""
+    for dpi in DPI:
+        figure.savefig(path, dpi=dpi, pil_kwargs={"optimize": True}, metadata={"Software": None})
+        if path.stat().st_size <= LARGEST:
+            break
+    return path
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,123 @@
+"""The kept results of the runs, as the figures read them."""
+
+import json
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from mpslab.pictures import read_case, read_table
+from paper_figures.keep import LEVELS, MILLIMETRE
+
+
+@dataclass(frozen=True)
+class Water:
+    """Water particles of a frame.
+
+    Attributes
+    ----------
+    time : float [s]
+    position : (n, 3) float64 [m]
+    u : (n,) float64 [m/s]
+        Velocity along x.
+    """
+
+    time: float
+    position: np.ndarray
+    u: np.ndarray
+
+
+class Kept:
+    """The kept results of one run.
+
+    Parameters
+    ----------
+    folder : Path
+        As `paper_figures.keep.keep` has written it.
+    title : str
+        What the run is called in the figures.
+    """
+
+    def __init__(self, folder, title):
+        self.folder, self.title = Path(folder), title
+
+    @cached_property
+    def case(self):
+        """The resolved case, a dict of tables."""
+        return read_case(self.folder)
+
+    @property
+    def spacing(self):
+        """Particle spacing [m]."""
+        return self.case["particles"]["spacing"]
+
+    @property
+    def end(self):
+        """Time of its end [s]."""
+        return self.case["time"]["end"]
+
+    @property
+    def width(self):
+        """Width of the tank [m]."""
+        return self.case["tank"]["width"]
+
+    @cached_property
+    def record(self):
+        """How the run was made: ranks, machine, commit, particles; a dict."""
+        return json.loads((self.folder / "run.json").read_text(encoding="utf-8"))
+
+    @cached_property
+    def steps(self):
+        """Columns step, time [s], iterations and seconds, (steps,) each."""
+        return read_table(self.folder / "steps.csv")
+
+    @cached_property
+    def series(self):
+        """Columns of `paper_figures.measures.measure`, a row for each frame."""
+        return read_table(self.folder / "series.csv")
+
+    @cached_property
+    def decomposition(self):
+        """Columns of ``decomposition.csv``; empty for a run on one rank."""
+        return read_table(self.folder / "decomposition.csv")
+
+    @cached_property
+    def _arrays(self):
+        with np.load(self.folder / "water.npz") as file:
+            return dict(file)
+
+    def near(self, time):
+        """The water where the waves break at one of `paper_figures.keep.TIMES`."""
+        return self._water("near", time)
+
+    def tank(self, time):
+        """The middle slice of the whole tank at one of `paper_figures.keep.CUTS`."""
+        return self._water("tank", time)
+
+    def cuts(self, time, method):
+        """Where a method cuts the tank, and what the ranks get.
+
+        Returns
+        -------
+        borders : (ranks + 1,) float64 [m]
+        share, work : (ranks,) float64 [-]
+            Of all particles, and of the work.
+        """
+        return [self._arrays[f"{what} {time:.2f} {method}"] for what in ("cuts", "share", "work")]
+
+    def _water(self, what, time):
+        name = f"{what} {time:.2f}"
+        low, high = self._arrays[f"{name} box"]
+        position = low + self._arrays[f"{name} position"].T / LEVELS * (high - low)
+        time = float(self._arrays[f"{name} time"])
+        return Water(time, position, self._arrays[f"{name} u"] * MILLIMETRE)
+
+
+def read(folder, runs):
+    """The kept results of the runs that have any, by their names."""
+    return {
+        name: Kept(folder / name, run.title)
+        for name, run in runs.items()
+        if (folder / name / "water.npz").exists()
+    }

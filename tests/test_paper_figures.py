@@ -1,0 +1,286 @@
+"""The paper's figures: what is measured and kept, what the figures show, and what is claimed."""
+
+import json
+import shutil
+
+import numpy as np
+import pytest
+from matplotlib.text import Text
+
+from mpslab import Simulation, load_case
+from paper_figures import __main__ as command
+from paper_figures import (
+    agreement,
+    fig_1,
+    fig_2,
+    fig_3,
+    fig_4,
+    fig_5,
+    kept,
+    measures,
+    runs,
+    table_1,
+)
+from paper_figures.keep import CUTS, METHODS, RANKS, TIMES, keep
+
+D0 = 0.002
+SIZE = "quick"  # the size of which all runs are kept
+RESULTS = command.HERE / "results" / SIZE
+FIGURES = {f.__name__.split(".")[1]: f for f in (fig_1, fig_2, fig_3, fig_4, fig_5, table_1)}
+
+
+def block(x, y, z, hole=lambda x, z: np.zeros_like(x, bool)):
+    """Water on a lattice of so many particles, less a hole."""
+    place = np.stack(np.meshgrid(*(np.arange(n) + 0.5 for n in (x, y, z)), indexing="ij"), -1)
+    place = place.reshape(-1, 3) * D0
+    return place[~hole(place[:, 0], place[:, 2])]
+
+
+# Measures
+
+
+def test_air_in_water_is_measured_and_air_above_it_is_not():
+    def chamber(x, z):
+        return np.hypot(x - 0.03, z - 0.02) < 0.008
+
+    def bay(x, z):
+        return (np.abs(x - 0.03) < 0.008) & (z > 0.01)
+
+    bed = [(-1.0, 0.0), (1.0, 0.0)]
+    # What the discs of the particles around it cover is not seen: about half a spacing all round.
+    area = np.pi * (0.008 - 0.5 * D0) ** 2
+    assert measures.enclosed_air(block(30, 1, 20, chamber), D0, bed) == pytest.approx(area, rel=0.2)
+    assert measures.enclosed_air(block(30, 1, 20, bay), D0, bed) == 0.0
+    assert measures.enclosed_air(block(30, 1, 20), D0, bed) == 0.0
+
+
+def test_share_across_the_tank_is_that_of_the_surface():
+    x, y = np.meshgrid(np.arange(60) * D0, np.arange(16) * D0, indexing="ij")
+    along, across = np.sin(2 * np.pi * x / 0.12), np.cos(2 * np.pi * y / 0.032)
+    for part, expected in ((0.0, 0.0), (1.0, 0.5), (2.0, 0.8)):
+        z = 0.01 * (along + part * across)
+        place = np.stack([x.ravel(), y.ravel(), z.ravel()], axis=1)
+        assert measures.share_across(place, D0, 0.032) == pytest.approx(expected, abs=0.03)
+
+
+def test_splash_is_the_height_ahead_of_a_place_without_single_particles():
+    water = block(30, 4, 20)
+    ahead = np.array([[0.05, y, 0.06] for y in (np.arange(4) + 0.5) * D0])
+    alone = np.array([[0.055, 0.5 * D0, 0.2]])
+    found = measures.splash(np.vstack([water, ahead, alone]), D0, 4 * D0, 0.045)
+    assert found == pytest.approx(0.06 - measures.STILL, abs=1e-12)
+
+
+def test_layers_share_out_all_particles():
+    place = block(5, 8, 3)
+    assert sum(one.astype(int) for one in measures.slices(place, D0, 8 * D0)).tolist() == [1] * 120
+
+
+# Runs
+
+
+@pytest.mark.parametrize("size", runs.SIZES)
+def test_all_runs_are_cases_of_the_papers_tank(size):
+    table = runs.read_runs(size)
+    assert set(table) == {"iccg", "piccg", "scg", "ddd", "mps", "standard", "fine"}
+    for run in table.values():
+        case = run.case
+        assert (case.tank.length, case.tank.depth) == (0.8, 0.04)
+        assert size == "quick" or case.time.end == 1.25
+        assert (case.wavemaker.height, case.wavemaker.period) == (0.0196, 0.777)
+    assert table["mps"].case.scheme.gradient == "mps"
+    assert {table[name].case.scheme.gradient for name in ("iccg", "piccg", "scg", "ddd")} == {
+        table["iccg"].case.scheme.gradient
+    }
+
+
+def test_all_runs_that_a_figure_needs_are_in_the_table():
+    for figure in FIGURES.values():
+        assert set(figure.RUNS) <= set(runs.read_runs("full"))
+
+
+@pytest.fixture(scope="module")
+def tiny(tmp_path_factory):
+    """A run of three steps of the paper's tank, far too coarse, and what is kept of it."""
+    folder = tmp_path_factory.mktemp("tiny")
+    changes = {"particles.spacing": 0.01, "tank.width": 0.06, "time.end": 0.004,
+               "output.interval": 0.001, "scheme.settling": 0}  # fmt: skip
+    simulation = Simulation(load_case("plunging_breaker", changes), folder / "run")
+    simulation.run()
+    keep(folder / "run", folder / "kept", runs.Run("tiny", "tiny", 1, changes, True))
+    return simulation, kept.Kept(folder / "kept", "tiny"), folder / "run"
+
+
+def test_what_is_kept_is_the_run(tiny):
+    simulation, run, _ = tiny
+    assert np.array_equal(run.steps["step"], simulation.steps["step"])
+    np.testing.assert_allclose(run.steps["seconds"], simulation.steps["seconds"], atol=6e-5)
+    assert sum(run.record["particles"].values()) == len(simulation.particles)
+    water = run.near(TIMES[-1])
+    assert water.time == pytest.approx(simulation.time, rel=1e-6)
+    fluid = simulation.particles.position[simulation.particles.fluid]
+    fluid = fluid[(fluid[:, 0] > 0.22) & (fluid[:, 0] < 0.5)]
+    assert len(water.position) == len(fluid)
+    for axis in range(3):
+        np.testing.assert_allclose(np.sort(water.position[:, axis]), np.sort(fluid[:, axis]),
+                                   atol=1e-3 * run.spacing)  # fmt: skip
+    for time in CUTS:
+        for method in METHODS:
+            borders, share, work = run.cuts(time, method)
+            assert len(borders) == RANKS + 1 and np.all(np.diff(borders) > 0.0)
+            assert share.sum() == pytest.approx(1.0) and work.sum() == pytest.approx(1.0)
+
+
+def test_a_folder_with_another_run_is_refused(tiny):
+    folder = tiny[2]
+    with pytest.raises(runs.Failed, match="holds another run than 'piccg'"):
+        runs.is_done(runs.read_runs("full")["piccg"], folder)
+
+
+# Figures
+
+
+@pytest.fixture(scope="module")
+def found():
+    """The kept results in the repository."""
+    return kept.read(RESULTS, runs.read_runs(SIZE))
+
+
+def words(figure):
+    """All texts of a figure that are not empty."""
+    return [text.get_text() for text in figure.findobj(Text) if text.get_text()]
+
+
+def panels(figure):
+    return [ax for ax in figure.axes if ax.get_title(loc="left")]
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_every_figure_is_drawn_with_its_caption_and_a_unit_on_each_axis(found, name):
+    figure = FIGURES[name].draw(found)
+    assert any(FIGURES[name].CAPTION in text for text in words(figure))
+    for ax in panels(figure):
+        for label in (ax.get_xlabel(), ax.get_ylabel()):
+            assert label == "" or "[" in label or label in ("time step", "iterations of a step")
+
+
+@pytest.mark.parametrize("name", ["fig_1", "fig_2"])
+def test_slices_show_each_run_at_both_times_on_one_scale(found, name):
+    module = FIGURES[name]
+    figure = module.draw(found)
+    times = (fig_1.BEFORE, fig_1.JET) if name == "fig_1" else (fig_2.TOUCH_DOWN, fig_2.SPLASH_UP)
+    titles = [ax.get_title(loc="left") for ax in panels(figure)]
+    for recipe in ("MPS", "CMPS", "standard"):
+        for time in times:
+            assert any(t.startswith(f"{recipe},") and f"t = {time:.2f} s" in t for t in titles)
+    flat = [ax for ax in panels(figure) if ax.axison]  # not those in perspective
+    assert len({(ax.get_xlim(), ax.get_ylim()) for ax in flat}) == 1
+    assert any("u [m/s]" in text for text in words(figure))
+
+
+def test_figure_4_tells_the_share_of_each_rank(found):
+    figure = fig_4.draw(found)
+    titles = [ax.get_title(loc="left") for ax in panels(figure)]
+    for method in METHODS:
+        for time in CUTS:
+            assert any(t.startswith(method) and f"t = {time:.2f} s" in t for t in titles)
+    for ax in panels(figure):
+        shares = [float(text.get_text()) for text in ax.texts]
+        assert len(shares) == RANKS and sum(shares) == pytest.approx(100.0, abs=0.5)
+
+
+def test_figure_5_has_a_line_for_each_run_in_both_panels(found):
+    seconds, iterations = panels(fig_5.draw(found))
+    for ax, column in ((seconds, "seconds"), (iterations, "iterations")):
+        assert [line.get_label() for line in ax.lines] == [found[n].title for n in fig_5.RUNS]
+        for name, line in zip(fig_5.RUNS, ax.lines, strict=True):
+            steps = found[name].steps
+            assert np.median(line.get_ydata()) == pytest.approx(np.median(steps[column]), rel=0.1)
+    assert "[s]" in seconds.get_ylabel()
+
+
+def test_table_1_adds_up(found):
+    for name, row in zip(table_1.RUNS, table_1.rows(found), strict=True):
+        steps, net, each = (float(cell.replace(",", "")) for cell in row[3:6])
+        assert steps == len(found[name].steps["step"])
+        assert net == pytest.approx(each * steps, rel=0.02)
+    assert table_1.rows(found)[0][6] == "1.00"
+
+
+def test_the_papers_times_a_step_follow_from_its_totals():
+    assert list(map(table_1._papers, table_1.PAPER)) == [
+        ("4,269", "250,481", "58.67", "1.00"),
+        ("4,291", "90,010", "20.98", "0.36"),
+        ("4,290", "90,215", "21.03", "0.36"),
+        ("4,170", "79,272", "19.01", "0.32"),
+    ]
+
+
+# Agreement
+
+
+def test_every_claim_that_the_runs_reach_is_judged_and_what_is_kept_is_todays(found, tmp_path):
+    path = agreement.write(found, tmp_path)
+    rows = json.loads(path.read_text(encoding="utf-8"))
+    reached = [until for names, until, _ in agreement.CLAIMS
+               if all(found[name].end >= until for name in names)]  # fmt: skip
+    assert len(rows) == len(reached) >= 13
+    for row in rows:
+        assert list(row) == ["claim", "paper", "ours", "agrees", "note"]
+        assert isinstance(row["agrees"], bool) and all(row[key] for key in ("claim", "ours"))
+    kept_rows = json.loads((RESULTS / "agreement.json").read_text(encoding="utf-8"))
+    assert kept_rows == rows
+
+
+class Fake:
+    """A run with steps of a given cost."""
+
+    def __init__(self, iterations, seconds, ranks=1):
+        self.steps = {"step": np.arange(1, 101), "iterations": np.full(100, iterations),
+                      "seconds": np.full(100, seconds)}  # fmt: skip
+        self.record = {"ranks": ranks, "machine": {"cores": 2, "cpu": "a processor"}}
+
+
+def test_claims_on_cost_turn_with_the_numbers():
+    assert agreement.iterations(Fake(10, 1.0), Fake(30, 1.0)).agrees
+    assert not agreement.iterations(Fake(10, 1.0), Fake(15, 1.0)).agrees
+    assert agreement.time_of_solvers(Fake(10, 1.0), Fake(30, 1.1)).agrees
+    assert not agreement.time_of_solvers(Fake(10, 1.0), Fake(30, 1.5)).agrees
+    assert agreement.saved(Fake(10, 1.0), Fake(10, 0.9)).agrees
+    assert not agreement.saved(Fake(10, 1.0), Fake(10, 1.0)).agrees
+    assert agreement.speedup(Fake(10, 3.0), Fake(10, 2.0, ranks=2)).agrees
+    assert not agreement.speedup(Fake(10, 2.5), Fake(10, 2.0, ranks=2)).agrees
+
+
+# The command line
+
+
+def test_pictures_are_drawn_from_kept_results(tmp_path, capsys):
+    assert command.main(["--quick", "--out", str(tmp_path), "--only", "table_1"]) == 0
+    assert (tmp_path / "table_1.png").stat().st_size > 10_000
+    assert "table_1.png" in capsys.readouterr().out
+
+
+def test_an_unknown_name_is_refused(tmp_path, capsys):
+    assert command.main(["--out", str(tmp_path), "--only", "fig_6"]) == 2
+    assert "--only fig_6: must be out of fig_1, fig_2" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_figure_whose_runs_are_missing_is_named(tmp_path, capsys):
+    results = tmp_path / "results"
+    shutil.copytree(RESULTS / "iccg", results / "iccg")
+    line = ["--quick", "--out", str(tmp_path / "out"), "--results", str(results)]
+    line += ["--only", "table_1"]
+    assert command.main(line) == 1
+    assert "table_1: not drawn, no results of piccg, scg" in capsys.readouterr().out
+
+
+def test_run_makes_what_is_missing_and_nothing_twice(tmp_path, monkeypatch, tiny):
+    made = []
+    monkeypatch.setattr(runs, "make", lambda run, folder: made.append(run.name))
+    monkeypatch.setattr(command, "keep", lambda folder, target, run: shutil.copytree(
+        tiny[1].folder, target))  # fmt: skip
+    line = ["--out", str(tmp_path), "--run", "--quick", "--only", "scg", "--only", "ddd"]
+    assert command.main(line) == 0 and made == ["scg", "ddd"]
+    assert command.main(line) == 0 and made == ["scg", "ddd"]
