@@ -7,7 +7,7 @@ import shutil
 import numpy as np
 
 from mpslab import balance, load_case, vtkhdf
-from mpslab.particles import FLUID
+from mpslab.kinds import FLUID
 from mpslab.pictures import read_table
 from mpslab.piston import make_paddle
 from mpslab.rebalance import load
