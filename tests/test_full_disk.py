@@ -192,9 +192,9 @@ def test_the_message_of_a_full_disk_says_what_was_needed_and_what_to_do(
     disk = Disk(monkeypatch)
     append = vtkhdf.ParticleSeries.append
 
-    def fill(self, time, particles):
+    def fill(self, time, *what):
         disk.room = float("inf") if time < 0.01 else 100
-        append(self, time, particles)
+        append(self, time, *what)
 
     monkeypatch.setattr(vtkhdf.ParticleSeries, "append", fill)
     (tmp_path / "case.toml").write_text(dumps(make_case(FRAMED)))
