@@ -8,7 +8,7 @@ import mpslab
 ROOT = Path(mpslab.__file__).parent
 FLOORS = {
     6: "tank progress measures film launch terminal",
-    5: "simulation record watch output checkpoint vtkhdf snapshots overturning gauges "
+    5: "simulation record results watch output checkpoint vtkhdf snapshots overturning gauges "
     "pictures preflight preflight_text cases initial inputs restart provenance diagnostics scatter "
     "headings panels catalogue scenes",
     4: "step timestep settling",
