@@ -123,7 +123,7 @@ def _draw_boxes(result, boxes):
     probes = result.figure("Pressure at the probes of the box", "time [s]", "p / (rho g h)")
     for probe in run.case.probe:
         time, seen = run.pressure(probe.name)
-        probes.line(run.label + f", z = {probe['z'] / run.depth:g} h", time,
+        probes.line(run.label + f", z = {probe.z / run.depth:g} h", time,
                     seen / _weight(run))  # fmt: skip
         probes.dashed("hydrostatic", [0.0, time[-1]], [1.0 - probe.z / run.depth] * 2)
 
