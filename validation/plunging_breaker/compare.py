@@ -211,8 +211,8 @@ def _tip(run, place, between):
     ]
     if not np.isfinite(levels).any():
         return [np.nan] * 5 + [place.x]
-    when = frames[np.nanargmax(levels)][0]
-    means = [_scatter(run, frame, place) for time, frame in frames if abs(time - when) <= AROUND]
+    when = frames[np.nanargmax(levels)].time
+    means = [_scatter(run, frame, place) for frame in frames if abs(frame.time - when) <= AROUND]
     return [*np.mean(means, axis=0), when, place.x]
 
 
