@@ -9,8 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import balance, load_case, vtkhdf
-from mpslab.kinds import FLUID
+from mpslab import balance, open_run
 from mpslab.piston import make_paddle
 from mpslab.rebalance import load
 from mpslab.step import slabs_of
@@ -34,13 +33,13 @@ def of_frames(folder, ranks, until=np.inf):
     (frames, 4) float64
         Of the work with each method, and of the particles with "centroid", which evens those out.
     """
-    case = load_case(folder / "case.toml")
-    slabs = slabs_of(case, make_paddle(case))
+    run = open_run(folder)
+    slabs = slabs_of(run.case, make_paddle(run.case))
     rows = []
-    for time, frame in vtkhdf.read_frames(folder / "particles.vtkhdf"):
-        if time > until:
+    for frame in run.frames:
+        if frame.time > until:
             break
-        slab, water = slabs.of(frame["position"][:, 0]), frame["kind"] == FLUID
+        slab, water = slabs.of(frame.position[:, 0]), frame.fluid
         work, particles = (load(by, water, slab, slabs.count) for by in ("optimal", "centroid"))
         cuts = {m: balance.cut(m, particles if m == "centroid" else work, ranks) for m in METHODS}
         rows.append([*(balance.imbalance(work, cuts[m]) for m in METHODS),

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import matplotlib
 
-from mpslab.pictures import STYLE, read_case
+from mpslab import open_run
+from mpslab.pictures import STYLE
 from mpslab.snapshots import draw_breaker, draw_tank
 
 DOCS = Path(__file__).parent
@@ -69,11 +70,11 @@ def main(names):
         raise SystemExit(f"{', '.join(sorted(unknown))}: must be out of {', '.join(PICTURES)}")
     for name in names or PICTURES:
         source, draw = PICTURES[name]
-        folder = run(source)
+        found = open_run(run(source))
         with matplotlib.rc_context(STYLE):
-            figure = draw(folder / "particles.vtkhdf", read_case(folder))
+            figure = draw(found.frames, found.tables)
             if figure is None:
-                raise SystemExit(f"{name}: no wave breaks in {folder}")
+                raise SystemExit(f"{name}: no wave breaks in {found.folder}")
             save(figure, DOCS / f"{name}.png")
         print(DOCS / f"{name}.png")
 

@@ -4,12 +4,18 @@
 >>> case = mpslab.load_case("plunging_breaker", {"particles.spacing": 0.004})
 >>> run = mpslab.Simulation(case).run()
 >>> run.particles.position, run.gauges["time"]
+
+A run that wrote files is read from its folder, at any time:
+
+>>> run = mpslab.open_run("results")
+>>> run.gauges["time"], run.frames[-1].position
 """
 
 from mpslab.cases import load_case
 from mpslab.keys import CaseError
+from mpslab.results import open_run
 from mpslab.simulation import Simulation
 from mpslab.watch import RunFailed
 
 __version__ = "0.1.0"
-__all__ = ["CaseError", "RunFailed", "Simulation", "load_case"]
+__all__ = ["CaseError", "RunFailed", "Simulation", "load_case", "open_run"]

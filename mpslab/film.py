@@ -13,11 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import vtkhdf
 from mpslab.files import FULL
-from mpslab.kinds import FLUID
-from mpslab.pictures import read_case
 from mpslab.progress import LINE_EVERY, make_bar
+from mpslab.results import open_run
 from mpslab.scenes import reel, scene
 from mpslab.scenes.stills import Shot, box_of
 from mpslab.terminal import unbroken
@@ -74,26 +72,25 @@ def make(
     OSError
         If the film cannot be written.
     """
-    folder = Path(folder)
-    out = Path(out) if out else folder / f"film{default_suffix()}"
-    case = read_case(folder)
-    path = folder / "particles.vtkhdf"
+    run = open_run(folder)
+    out = Path(out) if out else run.folder / f"film{default_suffix()}"
+    case, frames = run.tables, run.frames
     _check_options(out, fps, width, limit)
-    times = _times(path, folder)
+    times = frames.required().times
     picked = _picked(times, start, end)
-    _check_field(field, case, path)
+    _check_field(field, case, frames)
     if surface and not case["tank"]["width"]:
         raise ValueError("--surface: is of a run in 3-D; this one is in 2-D")
     window = _clipped(window, case)
     glances = picked[np.unique(np.linspace(0, len(picked) - 1, GLANCES).astype(int))]
-    box = box_of((vtkhdf.read_frame(path, k) for k in glances), case, window)
+    box = box_of((frames[k] for k in glances), case, window)
     interval = float(np.median(np.diff(times[picked])))
     shot = Shot(case, box, field, 2 * round(0.5 * width), pace(fps * interval), surface)
     draw, progress = shot.painter(), progress or (lambda done, total: None)
     with reel.Reel() as pictures:
         progress(0, len(picked))
         for done, index in enumerate(picked):
-            pictures.append(draw(times[index], vtkhdf.read_frame(path, index)))
+            pictures.append(draw(times[index], frames[index]))
             progress(done + 1, len(picked))
         return out, *reel.write(pictures, out, fps, limit)
 
@@ -124,16 +121,9 @@ def _check_options(out, fps, width, limit):
         raise ValueError(f"--limit {limit:g}: must be above 0 MB")
 
 
-def _times(path, folder):
-    """Times of the frames [s]."""
-    if not path.exists():
-        raise ValueError(f"'{folder}': holds no particles.vtkhdf; allowed: the folder of a run")
-    return vtkhdf.read_times(path)
-
-
 def _picked(times, start, end):
     """Numbers of the frames between two times."""
-    first, last = (times[0], times[-1]) if len(times) else (0.0, 0.0)
+    first, last = times[0], times[-1]
     begin, stop = (first if start is None else start), (last if end is None else end)
     picked = np.flatnonzero((times >= begin - 1e-9) & (times <= stop + 1e-9))
     if len(picked) < 2:
@@ -144,16 +134,16 @@ def _picked(times, start, end):
     return picked
 
 
-def _check_field(field, case, path):
+def _check_field(field, case, frames):
     if field not in FIELDS:
         raise ValueError(f"--field {field}: must be out of {', '.join(FIELDS)}")
-    wanted, held = FIELDS[field], vtkhdf.read_frame(path, 0)
+    wanted, held = FIELDS[field], frames[0]
     if wanted and wanted not in held:
         raise ValueError(f"--field {field}: the frames hold no {wanted}; allowed: --field none")
     if field == "pressure" and not case["fluid"]["gravity"]:
         raise ValueError("--field pressure: has no scale without gravity; allowed: --field speed")
-    if not (held["kind"] == FLUID).any():
-        raise ValueError(f"'{path}': the first frame holds no water")
+    if not held.fluid.any():
+        raise ValueError(f"'{frames.path}': the first frame holds no water")
 
 
 def _clipped(window, case):

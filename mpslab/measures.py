@@ -11,10 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import scatter, vtkhdf
-from mpslab.kinds import FLUID, WALL
+from mpslab import scatter
+from mpslab.kinds import WALL
 from mpslab.overturning import JET, find_crest
-from mpslab.pictures import read_case, read_table
+from mpslab.results import open_run
 from mpslab.snapshots import middle_slice
 from mpslab.terminal import unbroken
 
@@ -23,13 +23,12 @@ SETTLED = 0.25  # share of the run after which means are taken
 PERIODS = 2  # at the end of a record, over which its harmonics are taken
 
 
-def measure(folder):
+def measure(run):
     """Measures of every frame.
 
     Parameters
     ----------
-    folder : Path
-        A run folder.
+    run : mpslab.results.Run
 
     Returns
     -------
@@ -39,38 +38,34 @@ def measure(folder):
     Raises
     ------
     ValueError
-        If the folder holds no run with velocity, pressure and kind in its frames.
+        If it has no frames with velocity, pressure and kind.
     """
-    case = read_case(folder)
+    case = run.tables
     missing = {"velocity", "pressure", "kind"} - set(case["output"]["fields"])
     if missing:
         raise ValueError(
             f"output.fields = {case['output']['fields']}: must hold {', '.join(sorted(missing))}"
         )
-    path = folder / "particles.vtkhdf"
-    if not path.exists():
-        raise ValueError(f"'{folder}': holds no particles.vtkhdf; allowed: the folder of a run")
-    return [_frame(time, frame, case) for time, frame in vtkhdf.read_frames(path)]
+    return [_frame(frame, case) for frame in run.frames.required()]
 
 
-def _frame(time, frame, case):
+def _frame(frame, case):
     spacing, width = case["particles"]["spacing"], case["tank"]["width"]
     period = width if case["tank"]["periodic"] else 0.0
-    fluid = frame["kind"] == FLUID
-    x, u = frame["position"][fluid].astype(float), frame["velocity"][fluid].astype(float)
+    x, u = (field[frame.fluid].astype(float) for field in (frame.position, frame.velocity))
     row = {
-        "time [s]": time,
+        "time [s]": frame.time,
         "particle_volume [m3]": len(x) * spacing ** (3 if width else 2),
         "rms_speed [m/s]": np.sqrt(np.mean(np.sum(u**2, axis=1))),
         "mean_z [m]": x[:, 2].mean(),
         "isolated_share": scatter.isolated_share(x, spacing, period),
         "roughness [m/s]": scatter.roughness(x, u, spacing, period),
     }
-    return row | _crest(time, frame, spacing, width) | _of_flat_bed(frame, x, case)
+    return row | _crest(frame, spacing, width) | _of_flat_bed(frame, x, case)
 
 
-def _crest(time, frame, spacing, width):
-    piece = middle_slice(time, frame, spacing, width)
+def _crest(frame, spacing, width):
+    piece = middle_slice(frame.time, frame, spacing, width)
     wet = piece.fluid
     crest = find_crest(piece.x[wet], piece.z[wet], piece.speed[wet], spacing)
     return {
@@ -85,10 +80,10 @@ def _of_flat_bed(frame, x, case):
     """Pressure on a flat bed, half a spacing below it, and the first mode of a standing wave."""
     tank, row = case["tank"], {}
     if max(z for _, z in tank["bed"]) == 0.0:
-        place = frame["position"]
-        bed = (frame["kind"] == WALL) & (place[:, 2] < 0.0)
+        place = frame.position
+        bed = (frame.kind == WALL) & (place[:, 2] < 0.0)
         bed &= (place[:, 0] > 0.0) & (place[:, 0] < tank["length"])
-        row["bed_pressure [Pa]"] = frame["pressure"][bed].mean()
+        row["bed_pressure [Pa]"] = frame.pressure[bed].mean()
     if case["initial"]["type"] == "standing_wave":
         k = case["initial"]["mode"] * np.pi / tank["length"]
         area = case["particles"]["spacing"] ** 2
@@ -98,7 +93,12 @@ def _of_flat_bed(frame, x, case):
 
 
 def ledger(steps):
-    """Where the energy went, from the rows of ``steps.csv``.
+    """Where the energy went.
+
+    Parameters
+    ----------
+    steps : structured array (steps,)
+        As of `mpslab.results.Run` and of a Simulation.
 
     Returns
     -------
@@ -106,9 +106,9 @@ def ledger(steps):
         Work of the piston, and the changes of kinetic and potential energy since the first step;
         what is left over was dissipated [J].
     """
-    kinetic, potential = steps["kinetic_energy [J]"], steps["potential_energy [J]"]
+    kinetic, potential = steps["kinetic_energy"], steps["potential_energy"]
     book = {
-        "work of the piston": float(steps["piston_work [J]"][1:].sum()),
+        "work of the piston": float(steps["piston_work"][1:].sum()),
         "kinetic energy": float(kinetic[-1] - kinetic[0]),
         "potential energy": float(potential[-1] - potential[0]),
     }
@@ -121,8 +121,8 @@ def harmonics(gauges, period):
 
     Parameters
     ----------
-    gauges : dict of str to (n,) float64
-        Columns of ``gauges.csv``.
+    gauges : structured array (n,)
+        As of `mpslab.results.Run` and of a Simulation.
     period : float [s]
 
     Returns
@@ -131,7 +131,7 @@ def harmonics(gauges, period):
         Amplitude of the first harmonic, and highest less lowest level [m]; empty for a record
         shorter than three periods.
     """
-    time, *_ = gauges.values()
+    time = gauges["time"]
     if time[-1] - time[0] < (PERIODS + 1) * period:
         return []
     last = time > time[-1] - PERIODS * period
@@ -139,11 +139,11 @@ def harmonics(gauges, period):
     waves = [f(k * phase) for k in (1, 2, 3) for f in (np.cos, np.sin)]
     terms = np.stack([np.ones_like(phase), *waves], axis=1)
     found = []
-    for name, level in list(gauges.items())[1:]:
-        eta = level[last]
+    for name in gauges.dtype.names[1:]:
+        eta = gauges[name][last]
         if np.isfinite(eta).all():
             fit = np.linalg.lstsq(terms, eta, rcond=None)[0]
-            found.append((name.removesuffix(" [m]"), np.hypot(fit[1], fit[2]), np.ptp(eta)))
+            found.append((name, np.hypot(fit[1], fit[2]), np.ptp(eta)))
     return found
 
 
@@ -161,11 +161,11 @@ def summary(rows, steps, gauges, period):
             f"  overturns first at t = {jets[0]['time [s]']:.3f} s, "
             f"x = {jets[0]['crest_x [m]']:.3f} m, z = {jets[0]['crest_z [m]']:.3f} m"
         )
-    if steps:
+    if len(steps):
         lines.append(f"Volume over that of its particles: {_volume_share(rows, steps):.4f}")
         lines.append("Energy [J] (2-D: of a slice 1 m wide)")
         lines += [f"  {name}: {value:.5g}" for name, value in ledger(steps).items()]
-    if gauges and period > 0.0:
+    if len(gauges) and period > 0.0:
         lines += [
             f"  gauge {name}: first harmonic {1e3 * amplitude:.2f} mm, height {1e3 * height:.2f} mm"
             for name, amplitude, height in harmonics(gauges, period)
@@ -175,7 +175,7 @@ def summary(rows, steps, gauges, period):
 
 def _volume_share(rows, steps):
     """Volume in the last step over the volume of the particles in the last frame."""
-    return steps["volume [m3]"][-1] / rows[-1]["particle_volume [m3]"]
+    return steps["volume"][-1] / rows[-1]["particle_volume [m3]"]
 
 
 def write(path, rows):
@@ -197,13 +197,13 @@ def _main(arguments):
     parser.add_argument("folder", type=Path, help="folder of a run")
     folder = parser.parse_args(arguments).folder
     try:
-        rows = measure(folder)
+        run = open_run(folder)
+        rows = measure(run)
     except ValueError as error:
         print(f"mpslab: {error}", file=sys.stderr)
         return BAD_INPUT
     write(folder / "measures.csv", rows)
-    tables = (read_table(folder / f"{name}.csv") for name in ("steps", "gauges"))
-    print("\n".join(summary(rows, *tables, read_case(folder)["wavemaker"]["period"])))
+    print("\n".join(summary(rows, run.steps, run.gauges, run.tables["wavemaker"]["period"])))
     return 0
 
 

@@ -9,46 +9,17 @@ from pathlib import Path
 from time import monotonic
 
 from mpslab import inputs, lock
+from mpslab.columns import (
+    DECOMPOSITION_COLUMNS,
+    LOST_COLUMNS,
+    PHASE_COLUMNS,
+    PROBE_QUANTITIES,
+    STEP_COLUMNS,
+)
 from mpslab.files import remove_drafts, replacing
 from mpslab.provenance import environment
-from mpslab.stopwatch import COMMUNICATION, KINDS, PHASES, WAITING
+from mpslab.stopwatch import KINDS, PHASES
 from mpslab.tables import CsvTable
-
-STEP_COLUMNS = {
-    "step": "step",
-    "time": "time [s]",
-    "dt": "dt [s]",
-    "dt_limit": "dt_limit",
-    "iterations": "iterations",
-    "residual": "residual",
-    "seconds": "seconds",
-    "max_speed": "max_speed [m/s]",
-    "kinetic_energy": "kinetic_energy [J]",
-    "potential_energy": "potential_energy [J]",
-    "volume": "volume [m3]",
-    "piston_force": "piston_force [N]",
-    "piston_work": "piston_work [J]",
-    "lost": "lost",
-}
-DECOMPOSITION_COLUMNS = {
-    "step": "step",
-    "time": "time [s]",
-    "particles": "particles of each rank",
-    "seconds": "work of each rank [s]",
-    "waiting": "waiting of each rank [s]",
-    "imbalance_before": "imbalance before",
-    "imbalance_after": "imbalance after",
-    "migrated": "migrated",
-    "ghosts": "ghosts",
-}
-PHASE_COLUMNS = (
-    "step",
-    "time [s]",
-    *(f"{phase}{part} [s/step]"
-      for phase in PHASES for part in ("", f" {COMMUNICATION}", f" {WAITING}")),
-)  # fmt: skip
-LOST_COLUMNS = ("step", "time [s]", "gid", "x [m]", "y [m]", "z [m]", "reason")
-PROBE_QUANTITIES = ("pressure [Pa]", "u [m/s]", "v [m/s]", "w [m/s]")
 
 
 class RunFolder:
@@ -332,7 +303,7 @@ class RunFolder:
         entry = {"date": _now(), "step": step, "time [s]": time, "changes": changes}
         self._resumes.append(entry)
 
-    def write_run(self, outcome, particles, phases, reason=None):
+    def write_run(self, outcome, particles, phases, reason=None, preflight=None):
         """Write ``run.json``, in place of the earlier one.
 
         Parameters
@@ -345,6 +316,8 @@ class RunFolder:
             Seconds spent in each phase of the steps since the start or the restart.
         reason : str, optional
             Why the run stopped.
+        preflight : dict, optional
+            `mpslab.preflight.Preflight.findings`.
         """
         record = {
             **environment(),
@@ -358,6 +331,7 @@ class RunFolder:
             "phases [s]": {name: round(seconds, 3) for name, seconds in phases.items()},
             "outcome": outcome,
             "reason": reason,
+            "preflight": preflight or {},
         }
         with replacing(self.run) as draft:
             draft.write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -28,8 +28,9 @@ class Paddle:
         Wave height that the theory expects of this motion; 0 where it says nothing.
     note : str
         The theory and its range in one line of plain words.
-    facts : tuple of (str, str)
-        What else there is to say about the motion, name and value.
+    facts : dict
+        What else there is to say about the motion: of a recorded one "rows", "begin [s]" and "end
+        [s]" in the time of the run, "top_speed [m/s]" and "largest_acceleration [m/s2]".
     doubts : tuple of str
         What the run may suffer from, a line each.
     """
@@ -41,12 +42,12 @@ class Paddle:
     farthest: float
     height: float
     note: str
-    facts: tuple = ()
+    facts: dict = field(default_factory=dict)
     doubts: tuple = ()
 
 
 def from_motion(
-    motion: Callable, times, height: float, note: str, whole=None, facts=(), doubts=()
+    motion: Callable, times, height: float, note: str, whole=None, facts=None, doubts=()
 ) -> Paddle:
     """Paddle of a motion.
 
@@ -70,7 +71,7 @@ def from_motion(
         return 0.0 if t <= 0.0 else float(motion(t))
 
     return Paddle(
-        displacement, stroke, foremost, backmost, farthest, height, note, facts, doubts
+        displacement, stroke, foremost, backmost, farthest, height, note, facts or {}, doubts
     )
 
 

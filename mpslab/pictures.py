@@ -1,15 +1,13 @@
 """Pictures of a run, drawn from the files of its folder alone."""
 
-import tomllib
-from pathlib import Path
-
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
 from mpslab.headings import heading
+from mpslab.results import open_run
 from mpslab.snapshots import draw_breaker, draw_tank
-from mpslab.tables import read_rows
+from mpslab.tables import read_table  # noqa: F401 (others look for it here)
 
 # Okabe and Ito's colours, which stay apart for the colour-blind.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
@@ -52,13 +50,12 @@ def draw_run(folder):
     ValueError
         If the folder holds no case, or its frames cannot be read.
     """
-    folder = Path(folder)
-    case = read_case(folder)
-    target = folder / "pictures"
+    run = open_run(folder)
+    target = run.folder / "pictures"
     target.mkdir(exist_ok=True)
     drawn = []
     with matplotlib.rc_context(STYLE):
-        for name, figure in _figures(folder, case):
+        for name, figure in _figures(run):
             drawn.append(target / f"{name}.png")
             figure.savefig(drawn[-1])
     for path in {target / f"{name}.png" for name in NAMES} - set(drawn):
@@ -75,64 +72,28 @@ def listed(drawn):
     return lines
 
 
-def _figures(folder, case):
-    """Names and figures, one after the other, of what there is to see."""
-    particles = folder / "particles.vtkhdf"
-    if particles.exists():
-        yield "tank", draw_tank(particles, case)
-        if "pressure" in case["output"]["fields"] and case["fluid"]["gravity"]:
-            yield "pressure", draw_tank(particles, case, "pressure")
-        breaker = draw_breaker(particles, case)
-        if breaker:
-            yield "breaker", breaker
-    gauges = read_table(folder / "gauges.csv")
-    if len(gauges) > 1:
-        yield "gauges", draw_gauges(gauges, case)
-    probes = read_table(folder / "probes.csv")
-    if len(probes) > 1:
-        yield "probes", draw_probes(probes, case)
-    steps = read_table(folder / "steps.csv")
-    if steps:
-        yield "energy", draw_energy(steps, case)
-        yield "solver", draw_solver(steps, case)
-
-
 def read_case(folder):
     """The resolved case of a run folder, a dict; ValueError if there is none."""
-    path = folder / "case.toml"
-    try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise ValueError(
-            f"'{path}': cannot be read as a case ({error}); allowed: the folder of a run"
-        ) from error
+    return open_run(folder).tables
 
 
-def read_table(path):
-    """Columns of a table of the run folder.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-
-    Returns
-    -------
-    dict of str to ndarray
-        Header to column, of numbers where all entries are numbers; empty if there is no file, or
-        no row in it.
-    """
-    header, *rows = read_rows(path) or [[]]
-    if not rows:
-        return {}
-    return {name: _column(entries) for name, *entries in zip(header, *rows, strict=True)}
-
-
-def _column(entries):
-    try:
-        return np.array(entries, float)
-    except ValueError:
-        return np.array(entries)
+def _figures(run):
+    """Names and figures, one after the other, of what there is to see."""
+    case = run.tables
+    if run.frames:
+        yield "tank", draw_tank(run.frames, case)
+        if "pressure" in case["output"]["fields"] and case["fluid"]["gravity"]:
+            yield "pressure", draw_tank(run.frames, case, "pressure")
+        breaker = draw_breaker(run.frames, case)
+        if breaker:
+            yield "breaker", breaker
+    for name, draw in (("gauges", draw_gauges), ("probes", draw_probes)):
+        series = getattr(run, name)
+        if len(series) and len(series.dtype.names) > 1:
+            yield name, draw(series, case)
+    if len(run.steps):
+        yield "energy", draw_energy(run.steps, case)
+        yield "solver", draw_solver(run.steps, case)
 
 
 def _stack(count, case, title, height=2.0):
@@ -189,8 +150,8 @@ def draw_gauges(gauges, case):
 
     Parameters
     ----------
-    gauges : dict of str to ndarray
-        Columns of ``gauges.csv``.
+    gauges : structured array (n,)
+        As of `mpslab.results.Run` and of a Simulation.
     case : dict
         The case as its TOML file holds it.
 
@@ -198,8 +159,8 @@ def draw_gauges(gauges, case):
     -------
     matplotlib Figure
     """
-    time, *names = gauges
-    places = {f"{gauge['name']} [m]": _place(gauge, case, "xy") for gauge in case.get("gauge", ())}
+    time, *names = gauges.dtype.names
+    places = {gauge["name"]: _place(gauge, case, "xy") for gauge in case.get("gauge", ())}
     boxes = bool(case.get("water"))
     zero, what = (0.0, "level") if boxes else (case["tank"]["depth"], "elevation")
     title = "Water level above z = 0" if boxes else "Surface elevation above still water"
@@ -207,7 +168,7 @@ def draw_gauges(gauges, case):
     for ax, name in zip(axes, names, strict=True):
         ax.axhline(0.0, color="0.6", linewidth=0.8)
         _draw_reading(ax, gauges[time], gauges[name] - zero, "m")
-        _name(ax, places.get(name, name.removesuffix(" [m]")))
+        _name(ax, places.get(name, name))
         ax.set_ylabel(f"{what} [m]")
     return figure
 
@@ -217,8 +178,8 @@ def draw_probes(probes, case):
 
     Parameters
     ----------
-    probes : dict of str to ndarray
-        Columns of ``probes.csv``.
+    probes : structured array (n,)
+        As of `mpslab.results.Run` and of a Simulation.
     case : dict
         The case as its TOML file holds it.
 
@@ -227,11 +188,11 @@ def draw_probes(probes, case):
     matplotlib Figure
     """
     places = {probe["name"]: _place(probe, case, "xyz") for probe in case.get("probe", ())}
-    pressures = [name for name in probes if name.endswith(" pressure [Pa]")]
+    pressures = [name for name in probes.dtype.names if name.endswith(" pressure")]
     figure, axes = _stack(len(pressures), case, "Pressure at the probes", height=1.6)
     for ax, name in zip(axes, pressures, strict=True):
-        _draw_reading(ax, probes["time [s]"], probes[name], "Pa")
-        name = name.removesuffix(" pressure [Pa]")
+        _draw_reading(ax, probes["time"], probes[name], "Pa")
+        name = name.removesuffix(" pressure")
         _name(ax, places.get(name, name))
         ax.set_ylabel("pressure [Pa]")
     return figure
@@ -249,8 +210,8 @@ def draw_energy(steps, case):
 
     Parameters
     ----------
-    steps : dict of str to ndarray
-        Columns of ``steps.csv``.
+    steps : structured array (steps,)
+        As of `mpslab.results.Run` and of a Simulation.
     case : dict
         The case as its TOML file holds it.
 
@@ -258,8 +219,8 @@ def draw_energy(steps, case):
     -------
     matplotlib Figure
     """
-    time, kinetic = steps["time [s]"], steps["kinetic_energy [J]"]
-    gained = steps["potential_energy [J]"] - steps["potential_energy [J]"][0]
+    time, kinetic = steps["time"], steps["kinetic_energy"]
+    gained = steps["potential_energy"] - steps["potential_energy"][0]
     figure, (ax,) = _stack(1, case, "Energy of the water", height=3.6)
     ax.plot(time, kinetic, label="kinetic")
     ax.plot(time, gained, label="potential, less that at the start", linestyle="--")
@@ -274,8 +235,8 @@ def draw_solver(steps, case):
 
     Parameters
     ----------
-    steps : dict of str to ndarray
-        Columns of ``steps.csv``.
+    steps : structured array (steps,)
+        As of `mpslab.results.Run` and of a Simulation.
     case : dict
         The case as its TOML file holds it.
 
@@ -283,7 +244,7 @@ def draw_solver(steps, case):
     -------
     matplotlib Figure
     """
-    time, seconds = steps["time [s]"], steps["seconds"]
+    time, seconds = steps["time"], steps["seconds"]
     title = f"{len(time)} steps in {seconds.sum():.4g} s: {seconds.mean():.3g} s a step"
     figure, (top, middle, bottom) = _stack(3, case, title)
     top.plot(time, steps["iterations"], linewidth=0.8)
@@ -302,8 +263,8 @@ def _draw_time_step(ax, steps):
     for limit, colour in zip(limits[np.argsort(first)], COLOURS, strict=False):
         held = steps["dt_limit"] == limit
         ax.scatter(
-            steps["time [s]"][held],
-            1e3 * steps["dt [s]"][held],
+            steps["time"][held],
+            1e3 * steps["dt"][held],
             s=5,
             color=colour,
             label=limit,

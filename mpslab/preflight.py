@@ -1,7 +1,7 @@
 """What a case will be like, worked out before any step: size, cost, and the wave it asks for."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -10,9 +10,10 @@ from mpslab import bed as beds
 from mpslab.cases.doubts import warnings
 from mpslab.cases.sizes import sizes
 from mpslab.census import census
+from mpslab.columns import PROBE_QUANTITIES, STEP_COLUMNS
 from mpslab.kinds import KIND_NAMES
-from mpslab.output import PROBE_QUANTITIES, STEP_COLUMNS
 from mpslab.piston import make_paddle
+from mpslab.preflight_text import sections
 from mpslab.step import slabs_of, solver_of
 
 # Measured on one core of a 2023 server processor with the recipe "standard".
@@ -28,12 +29,44 @@ LEAST_STROKE = 0.1  # spacings
 REGULAR = ("linear", "second_order", "cnoidal")
 
 
-@dataclass
+@dataclass(frozen=True)
 class Preflight:
-    """Findings about a case: lines of (name, value) under headings, and warnings."""
+    """Findings about a case.
 
-    sections: dict = field(default_factory=dict)
-    warnings: list = field(default_factory=list)
+    Attributes
+    ----------
+    findings : dict
+        Numbers, words, and dicts and lists of them, as JSON holds them and ``run.json`` has them
+        under "preflight"; a unit stands in the name, "stroke [m]". What the case has nothing of,
+        such as a wave, is left out.
+
+        - "particles": how many of each kind; "spacing [m]", "spacings_over_depth"; "tank_length
+          [m]" and "tank_width [m]" in whole spacings; "laid_out": faces of the boxes of water,
+          obstacles and gates, {"gate.0": {"x [m]": [low, high]}}, None for the bed or a wall;
+        - "time_step [s]", "time_step_limit" (what holds it), "largest_time_step [s]", "end [s]",
+          "steps", "run_time [s]" (on one core), "memory [B]";
+        - "frames", "frame [B]", "readings" (rows of gauges.csv), "tables [B]";
+        - "wavemaker": "type", "theory" (and its range, in a line), "paddle_depth [m]", "stroke
+          [m]", "wave_height [m]" that the theory expects, and of a recorded motion its `facts`;
+        - "wave": "height [m]", "height_over_depth" and, of regular waves, "wavelength [m]" (linear
+          theory), "kh", "height_over_length", "ursell_number", "second_order_in_range"; of a
+          solitary one "celerity [m/s]"; on a beach its "slope" and what becomes of the wave there:
+          "surf_similarity", "breaker_type", "breaking_depth [m]", "breaking_height [m]",
+          "breaking_in_range", "runup [m]", or of a solitary wave "breaks";
+        - "warnings": what the run may suffer from, a line each.
+    """
+
+    findings: dict
+
+    @property
+    def warnings(self):
+        """What the run may suffer from, a list of lines."""
+        return self.findings["warnings"]
+
+    @property
+    def sections(self):
+        """The findings in words: lines of (name, value) by their heading."""
+        return sections(self.findings)
 
     def text(self):
         """The findings as plain lines."""
@@ -48,6 +81,10 @@ class Preflight:
 def preflight(case):
     """Work out the findings for a case, from numbers alone: lays out nothing and runs no step.
 
+    Returns
+    -------
+    Preflight
+
     Raises
     ------
     ValueError
@@ -55,19 +92,29 @@ def preflight(case):
     """
     size = sizes(case)
     paddle = make_paddle(case)
-    report = Preflight(warnings=list(warnings(case, paddle)))
+    notes = list(warnings(case, paddle))
     count = census(case, paddle.backmost if paddle else 0.0)
-    report.sections["Particles"] = _particles(case, count)
-    report.sections["Cost (one core, rough)"] = _cost(case, count.sum(), size, report.warnings)
-    report.sections["Results (rough)"] = _results(case, count.sum(), size)
+    found = {
+        **_particles(case, count),
+        **_cost(case, count.sum(), size, notes),
+        **_results(case, count.sum(), size),
+    }
     if paddle:
-        report.warnings += [*paddle.doubts, *_hardly_moves(case, paddle)]
-    if paddle and paddle.stroke > 0.0:
-        report.sections["Wavemaker"] = _wavemaker(case, paddle)
-        if paddle.height > 0.0:
-            describe = _regular_wave if case.wavemaker.type in REGULAR else _solitary_wave
-            report.sections["Wave"] = describe(case, paddle.height, report.warnings)
-    return report
+        notes += [*paddle.doubts, *_hardly_moves(case, paddle)]
+        found["wavemaker"] = _wavemaker(case, paddle)
+    if paddle and paddle.stroke > 0.0 and paddle.height > 0.0:
+        describe = _regular_wave if case.wavemaker.type in REGULAR else _solitary_wave
+        found["wave"] = describe(case, paddle.height, notes)
+    return Preflight(_plain({**found, "warnings": notes}))
+
+
+def _plain(value):
+    """The findings as JSON holds them, without numpy's numbers."""
+    if isinstance(value, dict):
+        return {name: _plain(entry) for name, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(entry) for entry in value]
+    return value.item() if isinstance(value, np.generic) else value
 
 
 def check_ranks(case, ranks):
@@ -80,60 +127,49 @@ def check_ranks(case, ranks):
 
 
 def _particles(case, count):
-    counts = np.round(count).astype(int)
-    kinds = ", ".join(f"{n:,} {name}" for n, name in zip(counts, KIND_NAMES, strict=True) if n)
     spacing = case.particles.spacing
-    size = f"{geometry.effective_length(case):.4g} m long"
-    if case.tank.width > 0.0:
-        size += f", {geometry.rows_across(case) * spacing:.4g} m wide"
-    return [
-        ("particles", f"{counts.sum():,} ({kinds})"),
-        ("spacing", f"{spacing * 1e3:g} mm, {case.tank.deepest / spacing:.3g} over the depth"),
-        ("tank in whole spacings", size),
-        *_water(case),
-        *_obstacles(case),
-        *_gates(case),
-    ]
+    across = geometry.rows_across(case) * spacing if case.tank.width > 0.0 else 0.0
+    return {
+        "particles": dict(zip(KIND_NAMES, np.round(count).astype(int), strict=True)),
+        "spacing [m]": spacing,
+        "spacings_over_depth": case.tank.deepest / spacing,
+        "tank_length [m]": geometry.effective_length(case),
+        "tank_width [m]": across,
+        "laid_out": {**_water(case), **_obstacles(case), **_gates(case)},
+    }
 
 
 def _water(case):
     """Faces of the boxes of water as they are laid out, where they are no whole spacings."""
+    found = {}
     for i, box in enumerate(case.water):
         low, high = filling.laid(case, box.start, box.end)
         axes = [0, 1] if case.dim == 3 else [0]
         if any(abs(a - b) > 1e-6 * case.particles.spacing for k in axes
                for a, b in ((low[k], box.start[k]), (high[k], box.end[k]))):  # fmt: skip
-            sides = [f"{'xy'[k]} {low[k]:.4g} m to {high[k]:.4g} m" for k in axes]
-            yield f"water.{i} in whole spacings", ", ".join(sides)
+            found[f"water.{i}"] = {f"{'xy'[k]} [m]": [low[k], high[k]] for k in axes}
+    return found
 
 
 def _obstacles(case):
-    """Faces of the obstacles as they are laid out."""
-    axes = "xyz" if case.dim == 3 else "x z"
-    for i, (low, high) in enumerate(obstacles.blocks(case) * case.particles.spacing):
-        sides = [
-            f"{axis} {_face(low[k], axis)} to {_face(high[k], axis)}"
-            for k, axis in enumerate(axes)
-            if axis != " "
-        ]
-        yield f"obstacle.{i} in whole spacings", ", ".join(sides)
+    """Faces of the obstacles as they are laid out; None for the bed or a wall."""
+    axes = [0, 1, 2] if case.dim == 3 else [0, 2]
+    return {
+        f"obstacle.{i}": {
+            f"{'xyz'[k]} [m]": [face if np.isfinite(face) else None for face in (low[k], high[k])]
+            for k in axes
+        }
+        for i, (low, high) in enumerate(obstacles.blocks(case) * case.particles.spacing)
+    }
 
 
 def _gates(case):
     """Faces of the gates as they are laid out."""
-    for i, (low, high) in enumerate(gates.faces(case)):
-        yield f"gate.{i} in whole spacings", f"x {low:.4g} m to {high:.4g} m"
-
-
-def _face(place, axis):
-    if np.isfinite(place):
-        return f"{place:.4g} m"
-    return "bed" if axis == "z" else "wall"
+    return {f"gate.{i}": {"x [m]": list(faces)} for i, faces in enumerate(gates.faces(case))}
 
 
 def _cost(case, n, size, notes):
     passes = size.steps + case.scheme.settling
-    seconds = passes * n * SECONDS_PER_PARTICLE_STEP[case.dim]
     needed = BYTES_OF_PROGRAM + n * BYTES_PER_PARTICLE[case.dim]
     needed += BYTES_PER_ENTRY * sum(_entries(case, size).values())
     there = memory.physical()
@@ -142,13 +178,15 @@ def _cost(case, n, size, notes):
             f"the run needs about {needed / 1e9:,.0f} GB of memory, and this machine has "
             f"{there / 1e9:,.0f} GB"
         )
-    return [
-        ("expected time step", f"{size.step:.2g} s"),
-        ("limit of the time step", size.limit),
-        ("expected steps", f"{size.steps:,} to t = {case.time.end:g} s"),
-        ("expected run time", _duration(seconds)),
-        ("expected memory", f"{needed / 1e6:,.0f} MB"),
-    ]
+    return {
+        "time_step [s]": size.step,
+        "time_step_limit": size.limit,
+        "largest_time_step [s]": case.time.maximum,
+        "end [s]": case.time.end,
+        "steps": size.steps,
+        "run_time [s]": passes * n * SECONDS_PER_PARTICLE_STEP[case.dim],
+        "memory [B]": needed,
+    }
 
 
 def _entries(case, size):
@@ -163,25 +201,12 @@ def _entries(case, size):
 def _results(case, n, size):
     """Number and size of what the run writes."""
     fields = ("", *case.output.fields)
-    frame = n * sum(BYTES_PER_POINT.get(name, 0.1) for name in fields)
-    tables = BYTES_PER_NUMBER * sum(_entries(case, size).values())
-    return [
-        ("frames", f"{size.frames:,} of {_bytes(frame)}, {_bytes(size.frames * frame)}"),
-        ("tables", f"{size.steps:,} rows of steps, {size.readings:,} of gauges, {_bytes(tables)}"),
-    ]
-
-
-def _bytes(number):
-    for unit, size in (("GB", 1e9), ("MB", 1e6)):
-        if number >= size:
-            return f"{number / size:,.1f} {unit}"
-    return f"{number / 1e3:.0f} kB"
-
-
-def _duration(seconds):
-    if seconds < 120.0:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60:.0f} min" if seconds < 7200.0 else f"{seconds / 3600:.1f} h"
+    return {
+        "frames": size.frames,
+        "frame [B]": n * sum(BYTES_PER_POINT.get(name, 0.1) for name in fields),
+        "readings": size.readings,
+        "tables [B]": BYTES_PER_NUMBER * sum(_entries(case, size).values()),
+    }
 
 
 def _hardly_moves(case, paddle):
@@ -193,58 +218,45 @@ def _hardly_moves(case, paddle):
 
 
 def _wavemaker(case, paddle):
-    return [
-        ("type", case.wavemaker.type),
-        ("stroke", f"{paddle.stroke * 1e3:.3g} mm"),
-        ("theory", paddle.note),
-        *paddle.facts,
-    ]
+    return {
+        "type": case.wavemaker.type,
+        "theory": paddle.note,
+        "paddle_depth [m]": case.tank.paddle_depth,
+        "stroke [m]": paddle.stroke,
+        "wave_height [m]": paddle.height,
+        **paddle.facts,
+    }
 
 
 def _regular_wave(case, height, notes):
     depth, gravity, period = case.tank.paddle_depth, case.fluid.gravity, case.wavemaker.period
     length = waves.wavelength(period, depth, gravity)
-    lines = [
-        ("height H", f"{height * 1e3:.3g} mm, {height / case.particles.spacing:.3g} spacings"),
-        ("wavelength L", f"{length:.4g} m (linear theory)"),
-        ("kh", f"{2 * math.pi * depth / length:.3g}"),
-        ("H/h, H/L", f"{height / depth:.3g}, {height / length:.3g}"),
-        ("Ursell number H L^2/h^3", f"{waves.ursell(height, length, depth):.3g}"),
-        ("second order piston theory", _madsen(height, length, depth)),
-    ]
-    return lines + _beach(case, height, notes)
-
-
-def _madsen(height, length, depth):
-    limit = f"H L^2/h^3 < {breaking.MADSEN_URSELL_LIMIT:.3g}"
-    inside = breaking.madsen_in_range(height, length, depth)
-    return f"in range ({limit})" if inside else f"out of range ({limit}); cnoidal regime"
+    return {
+        "height [m]": height,
+        "wavelength [m]": length,
+        "kh": 2 * math.pi * depth / length,
+        "height_over_depth": height / depth,
+        "height_over_length": height / length,
+        "ursell_number": waves.ursell(height, length, depth),
+        "second_order_in_range": breaking.madsen_in_range(height, length, depth),
+        **_beach(case, height, notes),
+    }
 
 
 def _beach(case, height, notes):
     slope = waterline_slope(case)
     if slope <= 0.0:
-        return []
+        return {}
     depth, gravity, period = case.tank.paddle_depth, case.fluid.gravity, case.wavemaker.period
     deep_height = height / waves.shoaling_coefficient(period, depth, gravity)
     deep_length = waves.deep_wavelength(period, gravity)
     xi = breaking.surf_similarity(slope, deep_height, deep_length)
     kind = breaking.breaker_type(xi)
-    lines = [("surf similarity", f"{xi:.3g} on the slope of {slope:.3g}: {kind}")]
+    found = {"slope": slope, "surf_similarity": xi, "breaker_type": kind}
     if kind == "surging":
-        return lines
-    steep = breaking.GODA_STEEPEST
-    outside = "" if slope <= steep * (1.0 + 1e-9) else (
-        f"; outside of its range, slopes up to {steep:g}")  # fmt: skip
+        return found
     at, breaker = breaking.breaking_point(deep_height, period, slope, gravity)
     runup = breaking.hunt_runup(deep_height, period, slope, gravity)
-    lines.append(
-        (
-            "breaking point (Goda 2010)",
-            f"depth {at * 1e3:.3g} mm, height {breaker * 1e3:.3g} mm{outside}",
-        )
-    )
-    lines.append(("run-up (Hunt)", f"{runup * 1e3:.3g} mm above still water"))
     top = max(z for _, z in case.tank.bed)
     highest = case.tank.depth + runup
     if top < highest:
@@ -256,24 +268,25 @@ def _beach(case, height, notes):
             f"the wave breaks in a depth of {at / case.particles.spacing:.2g} spacings; a clear "
             f"plunging jet wants 5 or more (particles.spacing <= {at / 5:.2g} m)"
         )
-    return lines
+    return found | {
+        "breaking_depth [m]": at,
+        "breaking_height [m]": breaker,
+        "breaking_in_range": slope <= breaking.GODA_STEEPEST * (1.0 + 1e-9),
+        "runup [m]": runup,
+    }
 
 
 def _solitary_wave(case, height, notes):
     depth, gravity = case.tank.paddle_depth, case.fluid.gravity
-    celerity = waves.solitary_celerity(height, depth, gravity)
-    lines = [
-        ("height H", f"{height * 1e3:.3g} mm, {height / case.particles.spacing:.3g} spacings"),
-        ("H/h", f"{height / depth:.3g}"),
-        ("celerity", f"{celerity:.3g} m/s"),
-    ]
+    found = {
+        "height [m]": height,
+        "height_over_depth": height / depth,
+        "celerity [m/s]": waves.solitary_celerity(height, depth, gravity),
+    }
     slope = waterline_slope(case)
     if slope > 0.0:
-        breaks = breaking.synolakis_breaks(height, depth, slope)
-        lines.append(
-            ("run-up on the beach", "breaks" if breaks else "does not break (Synolakis 1987)")
-        )
-    return lines
+        found |= {"slope": slope, "breaks": breaking.synolakis_breaks(height, depth, slope)}
+    return found
 
 
 def waterline_slope(case):

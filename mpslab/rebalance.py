@@ -55,7 +55,7 @@ class Rebalancer:
         Returns
         -------
         dict
-            By the keys of `mpslab.output.DECOMPOSITION_COLUMNS`, without step and time; particles
+            By the keys of `mpslab.columns.DECOMPOSITION_COLUMNS`, without step and time; particles
             and seconds of work and of all else since the last cut are lists over the ranks.
         """
         domain = self.domain

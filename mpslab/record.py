@@ -2,13 +2,15 @@
 
 import warnings
 from contextlib import suppress
+from functools import cached_property
 
 import numpy as np
 
 from mpslab import checkpoint, diagnostics, gauges
+from mpslab.columns import PROBE_QUANTITIES, STEP_COLUMNS
 from mpslab.journal import journal_of
 from mpslab.kinds import KIND_NAMES, kinds_of
-from mpslab.output import PROBE_QUANTITIES, STEP_COLUMNS
+from mpslab.preflight import preflight
 from mpslab.series import Series
 
 REACH = 3.0  # spacings: no instrument sees further along the tank
@@ -88,7 +90,7 @@ class Record:
         ])  # fmt: skip
 
     def add_step(self, **entries):
-        """Add a row; the keywords are the keys of `mpslab.output.STEP_COLUMNS`."""
+        """Add a row; the keywords are the keys of `mpslab.columns.STEP_COLUMNS`."""
         self.last_row = entries
         self.steps.add(tuple(entries[key] for key in STEP_COLUMNS))
         self._write(lambda: self.folder.add_step(**entries))
@@ -110,7 +112,7 @@ class Record:
         self._write(lambda: self.folder.add_phases(step, time, spent))
 
     def add_decomposition(self, **entries):
-        """Add a row; the keywords are the keys of `mpslab.output.DECOMPOSITION_COLUMNS`."""
+        """Add a row; the keywords are the keys of `mpslab.columns.DECOMPOSITION_COLUMNS`."""
         self._write(lambda: self.folder.add_decomposition(**entries))
 
     def read_instruments(self):
@@ -196,7 +198,20 @@ class Record:
             self._write(lambda: self._write_run(outcome, reason))
 
     def _write_run(self, outcome, reason):
-        self.folder.write_run(outcome, self.counts, self.flow.stopwatch.seconds, reason)
+        self.folder.write_run(
+            outcome, self.counts, self.flow.stopwatch.seconds, reason, self._preflight
+        )
+
+    @cached_property
+    def _preflight(self):
+        """What `--check` foretells of the case; "refused" and why, where it would not let it run.
+
+        Some milliseconds, whatever the size of the tank. A run that goes on works it out anew.
+        """
+        try:
+            return preflight(self.case).findings
+        except ValueError as error:
+            return {"refused": str(error)}
 
     def leave(self, outcome, reason):
         """Write down the rows and how the run ended, as far as one can, when other ranks may not.

@@ -164,7 +164,7 @@ class Simulation:
 
     @property
     def last_row(self):
-        """The last row of the steps, a dict by the keys of `mpslab.output.STEP_COLUMNS`."""
+        """The last row of the steps, a dict by the keys of `mpslab.columns.STEP_COLUMNS`."""
         return self._record.last_row
 
     @property

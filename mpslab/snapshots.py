@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mpslab import vtkhdf
 from mpslab.kinds import FLUID
 from mpslab.overturning import find_front
 from mpslab.panels import draw_panels
@@ -64,21 +63,19 @@ def middle_slice(time, frame, spacing, width):
     return Slice(time, frame["kind"][seen], x, z, speed, along, pressure)
 
 
-def _slices(path, case, indices):
-    """Slices of some frames of the series."""
-    times = vtkhdf.read_times(path)
+def _slices(frames, case):
+    """Slices of frames."""
     spacing, width = case["particles"]["spacing"], case["tank"]["width"]
-    for index in indices:
-        yield middle_slice(times[index], vtkhdf.read_frame(path, index), spacing, width)
+    for frame in frames:
+        yield middle_slice(frame.time, frame, spacing, width)
 
 
-def draw_tank(path, case, field="speed"):
+def draw_tank(frames, case, field="speed"):
     """The whole tank, one panel for each time of ``output.pictures``, or for six of the run.
 
     Parameters
     ----------
-    path : Path
-        The particle series.
+    frames : mpslab.results.Frames
     case : dict
         The case as its TOML file holds it.
     field : str
@@ -88,35 +85,34 @@ def draw_tank(path, case, field="speed"):
     -------
     matplotlib Figure
     """
-    times = vtkhdf.read_times(path)
+    times = frames.required().times
     wanted = case["output"]["pictures"] or np.linspace(times[0], times[-1], PICTURES)
     indices = np.unique([np.argmin(np.abs(times - time)) for time in wanted])
-    slices = list(_slices(path, case, indices))
+    slices = list(_slices((frames[index] for index in indices), case))
     box = _box(slices, case)
     return draw_panels(slices, case, box, "The tank", field)
 
 
-def draw_breaker(path, case):
+def draw_breaker(frames, case):
     """The wave from near by: frames about the first in which it overturns.
 
     If no wave throws a jet, frames about the first in which one's front stands upright.
 
     Parameters
     ----------
-    path, case
+    frames, case
         As for `draw_tank`.
 
     Returns
     -------
     matplotlib Figure, or None if no wave does, or the frames hold no velocity
     """
-    count, spacing = len(vtkhdf.read_times(path)), case["particles"]["spacing"]
-    fronts = [_front(piece, spacing) for piece in _slices(path, case, range(count))]
+    fronts = [_front(piece, case["particles"]["spacing"]) for piece in _slices(frames, case)]
     index = _moment(fronts)
     if index is None:
         return None
-    first = max(min(index - 1, count - BREAKER_FRAMES), 0)
-    slices = list(_slices(path, case, range(first, min(first + BREAKER_FRAMES, count))))
+    first = max(min(index - 1, len(frames) - BREAKER_FRAMES), 0)
+    slices = list(_slices(frames[first : first + BREAKER_FRAMES], case))
     front = fronts[index]
     what = "Where a wave overturns" if front.overturns else "Where the front of a wave is upright"
     return draw_panels(slices, case, _window(front, slices, case), what, "speed")

@@ -5,6 +5,8 @@ import os
 from pathlib import Path
 from time import monotonic
 
+import numpy as np
+
 from mpslab.files import replacing
 
 
@@ -18,6 +20,33 @@ def read_rows(path):
             return list(csv.reader(line for line in file if line.endswith("\n")))
     except FileNotFoundError:
         return []
+
+
+def read_table(path):
+    """Columns of a table of numbers and words.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    dict of str to ndarray
+        Header to column, of numbers where all entries are numbers; empty if there is no file, or
+        no row in it.
+    """
+    header, *rows = read_rows(path) or [[]]
+    if not rows:
+        return {}
+    return {name: _column(entries) for name, *entries in zip(header, *rows, strict=True)}
+
+
+def _column(entries):
+    try:
+        return np.array(entries, float)
+    except ValueError:
+        return np.array(entries)
 
 
 class CsvTable:

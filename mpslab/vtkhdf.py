@@ -263,7 +263,7 @@ def _read(path, find):
 
     try:
         return reading(path, read)
-    except OSError as error:
+    except (OSError, KeyError, RuntimeError) as error:  # what h5py says of a damaged file
         raise _unreadable(path, error) from error
 
 

@@ -177,8 +177,8 @@ def test_the_pace_is_told(speed, words):
 
 
 def test_the_picture_of_a_frame_shows_the_water_in_its_colour(flat):
-    case = film.read_case(flat)
-    frame = film.vtkhdf.read_frame(flat / "particles.vtkhdf", 0)
+    run = film.open_run(flat)
+    case, frame = run.tables, run.frames[0]
     box = stills.box_of([frame], case)
     image = stills.Shot(case, box, "speed", 480, "real speed").painter()(0.0, frame)
     slow = np.array([68, 1, 84])  # the first colour of viridis: the water is at rest

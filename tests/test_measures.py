@@ -10,7 +10,8 @@ from tanks import make_case
 from mpslab import measures
 from mpslab.diagnostics import piston_force
 from mpslab.particles import FACE, FILLER, FLUID, PISTON, WATER
-from mpslab.pictures import draw_run, read_table
+from mpslab.pictures import draw_run
+from mpslab.results import open_run
 from mpslab.simulation import Simulation
 from mpslab.stencil import make_stencil
 
@@ -62,7 +63,7 @@ def test_tables_that_a_kill_cut_amid_a_row_are_measured_and_drawn(driven, tmp_pa
 
 def test_first_mode_follows_linear_theory_for_a_quarter_of_a_period(standing):
     """eta = a sin(wt) cos(kx) in a tank of 0.04 x 0.02 m: w = 26.2 rad/s."""
-    rows = [row for row in measures.measure(standing) if row["time [s]"] < 0.06]
+    rows = [row for row in measures.measure(open_run(standing)) if row["time [s]"] < 0.06]
     k = np.pi / 0.04
     w = np.sqrt(9.81 * k * np.tanh(k * 0.02))
     found = np.array([row["first_mode [m]"] for row in rows])
@@ -72,13 +73,13 @@ def test_first_mode_follows_linear_theory_for_a_quarter_of_a_period(standing):
 
 def test_bed_pressure_is_that_of_still_water_at_the_bed_particles(tmp_path):
     Simulation(make_case({"time.end": 0.02}), tmp_path / "run").run()
-    last = measures.measure(tmp_path / "run")[-1]
+    last = measures.measure(open_run(tmp_path / "run"))[-1]
     assert last["bed_pressure [Pa]"] == pytest.approx(1000.0 * 9.81 * 0.021, rel=0.03)
 
 
 def test_work_of_the_piston_is_the_energy_that_the_water_gains(driven):
     """Less what the scheme dissipates, a small part in half a period."""
-    book = measures.ledger(read_table(driven / "steps.csv"))
+    book = measures.ledger(open_run(driven).steps)
     gained = book["kinetic energy"] + book["potential energy"]
     assert gained > 0.0
     assert book["work of the piston"] == pytest.approx(gained + book["dissipated"])
@@ -86,8 +87,8 @@ def test_work_of_the_piston_is_the_energy_that_the_water_gains(driven):
 
 
 def test_work_is_force_times_stroke(driven):
-    steps = read_table(driven / "steps.csv")
-    time, force, work = (steps[k] for k in ("time [s]", "piston_force [N]", "piston_work [J]"))
+    steps = open_run(driven).steps
+    time, force, work = (steps[k] for k in ("time", "piston_force", "piston_work"))
     assert np.all(force[time > 0.02] > 0.0)
     stroke = work[1:] / force[1:]
     # The piston starts at its rear end and has gone through its stroke after half a period.
@@ -118,12 +119,20 @@ def test_frames_without_velocity_are_refused_by_their_key(tmp_path, capsys):
     assert "output.fields = ['kind']: must hold pressure, velocity" in capsys.readouterr().err
 
 
+def gauges(time, **levels):
+    """A series as a run has it."""
+    series = np.empty(len(time), [(name, float) for name in ("time", *levels)])
+    for name, values in {"time": time, **levels}.items():
+        series[name] = values
+    return series
+
+
 def test_harmonics_find_the_first_harmonic_and_the_height_of_a_record():
     time = np.linspace(0.0, 2.0, 801)
     phase = 2.0 * np.pi * time / 0.5
     eta = 0.04 + 0.01 * np.cos(phase - 0.7) + 0.002 * np.sin(2.0 * phase)
     dry = np.where(time > 1.5, np.nan, eta)
-    found = measures.harmonics({"time [s]": time, "a [m]": eta, "b [m]": dry}, 0.5)
+    found = measures.harmonics(gauges(time, a=eta, b=dry), 0.5)
     (name, amplitude, height) = found[0]
     assert (len(found), name) == (1, "a")
     assert amplitude == pytest.approx(0.01, rel=1e-3)
@@ -132,4 +141,4 @@ def test_harmonics_find_the_first_harmonic_and_the_height_of_a_record():
 
 def test_harmonics_of_a_record_too_short_are_left_out():
     time = np.linspace(0.0, 1.4, 100)
-    assert measures.harmonics({"time [s]": time, "a [m]": time}, 0.5) == []
+    assert measures.harmonics(gauges(time, a=time), 0.5) == []

@@ -8,7 +8,7 @@ import subprocess
 import numpy as np
 import pytest
 
-from mpslab import output, pictures, provenance, tables
+from mpslab import columns, output, provenance, tables
 from mpslab.output import CsvTable, RunFolder
 
 STEPS_HEADER = (
@@ -82,7 +82,7 @@ def test_numbers_come_back_with_the_same_bits(folder):
     folder.close()
     header, row = rows(folder.path / "steps.csv")
     expected = step_row(1)
-    for key, name in output.STEP_COLUMNS.items():
+    for key, name in columns.STEP_COLUMNS.items():
         entry = row[header.index(name)]
         assert entry == expected[key] if key == "dt_limit" else float(entry) == expected[key]
     assert rows(folder.path / "gauges.csv")[1] == [repr(1 / 3), repr(1 / 3 / 7), "nan"]
@@ -126,12 +126,12 @@ def test_a_reader_leaves_out_a_row_that_has_no_end_wherever_it_is_cut(folder):
     folder.close()
     for name in ("steps", "gauges", "probes", "lost"):
         path = folder.path / f"{name}.csv"
-        whole, text = pictures.read_table(path), path.read_text()
+        whole, text = tables.read_table(path), path.read_text()
         ends = [k + 1 for k, letter in enumerate(text) if letter == "\n"]
         for cut in range(len(text)):
             path.write_text(text[:cut])
             count = max(sum(end <= cut for end in ends) - 1, 0)
-            found = pictures.read_table(path)
+            found = tables.read_table(path)
             assert set(found) == (set(whole) if count else set())
             for column, entries in found.items():
                 np.testing.assert_array_equal(entries, whole[column][:count])

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from ranks import ROOT, SMALL, TIMEOUT, environment, tank
 
-from mpslab import checkpoint, communicator, launch
+from mpslab import checkpoint, communicator, launch, open_run
 from mpslab.stopwatch import PHASES
 
 FILES = ("checkpoint.h5", "gauges.csv", "probes.csv", "lost.csv")
@@ -94,6 +94,8 @@ def test_ranks_leave_the_same_files_as_one(alone, together, tmp_path, ranks):
     assert_same_results(alone, found)
     frames = [(folder / "particles.vtkhdf").read_bytes() for folder in (alone, found)]
     assert frames[0] == frames[1]
+    foretold = [open_run(folder).preflight for folder in (alone, found)]
+    assert foretold[0] == foretold[1] and foretold[0]["steps"] > 0
 
 
 def test_mpiexec_starts_the_same_run(alone, tmp_path):
@@ -121,6 +123,10 @@ def test_a_checkpoint_goes_on_with_any_number_of_ranks(alone, tmp_path):
 
 def test_rebalancing_is_written_down(together):
     folder, _ = together
+    run = open_run(folder)
+    shares = run.decomposition["particles"]
+    assert shares.shape == (len(run.phases), 2)
+    assert (shares.sum(axis=1) == sum(run.record["particles"].values())).all()
     rows = table(folder, "decomposition")
     assert [int(row["step"]) for row in rows] == list(range(5, int(rows[-1]["step"]) + 1, 5))
     total = len(checkpoint.read(folder / "checkpoint.h5")[0]["gid"])

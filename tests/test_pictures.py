@@ -12,6 +12,7 @@ from mpslab import panels as panels_of
 from mpslab.kinds import DUMMY, FLUID, GATE, GATE_DUMMY, WALL
 from mpslab.output import RunFolder
 from mpslab.particles import make_particles
+from mpslab.results import Frames, open_run
 
 SPACING = 0.004
 
@@ -58,16 +59,15 @@ def text_of(figure):
 
 
 def test_every_picture_says_what_was_run(folder, case):
-    steps = pictures.read_table(folder.path / "steps.csv")
-    gauges, probes = (pictures.read_table(folder.path / f"{n}.csv") for n in ("gauges", "probes"))
+    run = open_run(folder.path)
     case["scheme"] |= {"gradient": "mps", "smagorinsky": 0.12}
     for figure in (
-        snapshots.draw_tank(folder.particles, case),
-        snapshots.draw_tank(folder.particles, case, "pressure"),
-        pictures.draw_gauges(gauges, case),
-        pictures.draw_probes(probes, case),
-        pictures.draw_energy(steps, case),
-        pictures.draw_solver(steps, case),
+        snapshots.draw_tank(Frames(folder.particles), case),
+        snapshots.draw_tank(Frames(folder.particles), case, "pressure"),
+        pictures.draw_gauges(run.gauges, case),
+        pictures.draw_probes(run.probes, case),
+        pictures.draw_energy(run.steps, case),
+        pictures.draw_solver(run.steps, case),
     ):
         for words in ("drawn: Plunging breaker", "2-D", "$d_0$ = 4 mm", "H = 30 mm, T = 0.777 s",
                       "recipe standard with gradient mps, smagorinsky 0.12"):  # fmt: skip
@@ -112,11 +112,11 @@ def test_colours_are_those_of_the_case_in_every_picture(tmp_path):
     ends = set()
     for recipe, times in (("standard", [0.0]), ("paper", [0.3, 1.2])):
         case["scheme"]["recipe"], case["output"]["pictures"] = recipe, times
-        ends |= norms(snapshots.draw_tank(run.particles, case))
-    ends |= norms(snapshots.draw_breaker(run.particles, case))
+        ends |= norms(snapshots.draw_tank(Frames(run.particles), case))
+    ends |= norms(snapshots.draw_breaker(Frames(run.particles), case))
     (speed,) = ends
     assert speed == (0.0, pytest.approx(np.sqrt(9.81 * 0.04)), "viridis")
-    (pressure,) = norms(snapshots.draw_tank(run.particles, case, "pressure"))
+    (pressure,) = norms(snapshots.draw_tank(Frames(run.particles), case, "pressure"))
     assert pressure == (0.0, pytest.approx(1.2 * 9810 * 0.04), "plasma")
 
 
@@ -134,7 +134,7 @@ def test_the_legend_names_every_solid_that_is_seen(tmp_path, folder, case):
     def legend(figure):
         return [text.get_text() for text in figure.legends[0].get_texts()]
 
-    assert legend(snapshots.draw_tank(folder.particles, case)) == [
+    assert legend(snapshots.draw_tank(Frames(folder.particles), case)) == [
         "wall", "piston", "still water level"
     ]  # fmt: skip
     kinds = [FLUID, FLUID, WALL, DUMMY, WALL, GATE, GATE_DUMMY]
@@ -145,7 +145,7 @@ def test_the_legend_names_every_solid_that_is_seen(tmp_path, folder, case):
     )
     case["obstacle"] = [{"from": [0.035, 0.0, -0.005], "to": [0.045, 0.0, 0.005]}]
     case["water"] = [{"from": [0.0, 0.0, 0.0], "to": [0.02, 0.0, 0.02]}]
-    assert legend(snapshots.draw_tank(path, case)) == ["water", "wall", "obstacle", "gate"]
+    assert legend(snapshots.draw_tank(Frames(path), case)) == ["water", "wall", "obstacle", "gate"]
 
 
 def panels(figure):
@@ -155,16 +155,16 @@ def panels(figure):
 
 def test_tank_shows_the_frames_nearest_to_the_times_asked_for(folder, case):
     case["output"]["pictures"] = [0.2, 0.76, 9.0]
-    figure = snapshots.draw_tank(folder.particles, case)
+    figure = snapshots.draw_tank(Frames(folder.particles), case)
     assert list(panels(figure)) == ["t = 0.250 s", "t = 0.750 s", "t = 1.250 s"]
 
 
 def test_tank_shows_six_times_if_none_are_asked_for(folder, case):
-    assert len(panels(snapshots.draw_tank(folder.particles, case))) == 6
+    assert len(panels(snapshots.draw_tank(Frames(folder.particles), case))) == 6
 
 
 def test_discs_are_particles_as_wide_as_the_spacing_coloured_by_speed(folder, case):
-    figure = snapshots.draw_tank(folder.particles, case)
+    figure = snapshots.draw_tank(Frames(folder.particles), case)
     water = panels(figure)["t = 0.500 s"].collections[-1]
     frame = vtkhdf.read_frame(folder.particles, 2)
     fluid = frame["kind"] == FLUID
@@ -176,7 +176,7 @@ def test_discs_are_particles_as_wide_as_the_spacing_coloured_by_speed(folder, ca
 
 
 def test_panels_share_limits_that_hold_the_water(folder, case):
-    axes = panels(snapshots.draw_tank(folder.particles, case)).values()
+    axes = panels(snapshots.draw_tank(Frames(folder.particles), case)).values()
     ((x, z),) = {(ax.get_xlim(), ax.get_ylim()) for ax in axes}
     for _, frame in vtkhdf.read_frames(folder.particles):
         water = frame["position"][frame["kind"] == FLUID]
@@ -187,7 +187,7 @@ def test_panels_share_limits_that_hold_the_water(folder, case):
 def test_breaker_shows_the_onset_of_overturning(tmp_path):
     run = write_run(tmp_path / "run", spacing=0.002, frames=26)
     case = tomllib.loads(run.case.read_text())
-    figure = snapshots.draw_breaker(run.particles, case)
+    figure = snapshots.draw_breaker(Frames(run.particles), case)
     assert next(iter(panels(figure))) == "t = 1.050 s", "one frame before the first jet"
     left, right = figure.axes[0].get_xlim()
     assert left < 0.12 + 0.42 * 1.1 + 0.04 < right
@@ -196,7 +196,8 @@ def test_breaker_shows_the_onset_of_overturning(tmp_path):
 
 def test_gentle_waves_have_no_breaker(tmp_path):
     run = write_run(tmp_path / "run", spacing=0.002, frames=4, breaks=False)
-    assert snapshots.draw_breaker(run.particles, tomllib.loads(run.case.read_text())) is None
+    found = open_run(run.path)
+    assert snapshots.draw_breaker(found.frames, found.tables) is None
 
 
 def test_a_picture_that_is_no_longer_due_is_taken_away(tmp_path):
@@ -213,7 +214,7 @@ def test_frames_without_velocity_are_drawn_in_one_colour(tmp_path, folder, case)
     path = tmp_path / "p.vtkhdf"
     particles = make_particles(np.random.default_rng(0).random((50, 3)) * [1, 0, 0.1], [FLUID] * 50)
     vtkhdf.ParticleSeries(path, []).append(0.0, particles)
-    figure = snapshots.draw_tank(path, case)
+    figure = snapshots.draw_tank(Frames(path), case)
     assert len(figure.axes) == 1, "no colour bar"
 
 
@@ -231,16 +232,16 @@ def test_slice_holds_one_layer(layers):
 
 
 def test_gauges_are_drawn_above_still_water_and_broken_where_dry(folder, case):
-    table = pictures.read_table(folder.path / "gauges.csv")
+    table = open_run(folder.path).gauges.copy()
     figure = pictures.draw_gauges(table, case)
     first, second = panels(figure).items()
     assert first[0] == "g1, x = 0.2 m"
-    np.testing.assert_allclose(first[1].lines[-1].get_ydata(), table["g1 [m]"] - 0.04)
+    np.testing.assert_allclose(first[1].lines[-1].get_ydata(), table["g1"] - 0.04)
     assert np.isnan(second[1].lines[-1].get_ydata()[-1])
 
 
 def test_probes_are_drawn_with_name_and_place(folder, case):
-    table = pictures.read_table(folder.path / "probes.csv")
+    table = open_run(folder.path).probes.copy()
     (axes,) = panels(pictures.draw_probes(table, case)).values()
     assert axes.get_title(loc="left") == "p1, x = 0.2 m, z = 0.01 m"
     assert axes.get_ylabel() == "pressure [Pa]"
@@ -251,8 +252,8 @@ def test_probes_are_drawn_with_name_and_place(folder, case):
 
 @pytest.mark.parametrize("at", [0, 1, 500, 999])
 def test_a_lone_reading_sets_no_scale_and_is_marked(folder, case, at):
-    table = pictures.read_table(folder.path / "probes.csv")
-    name = "p1 pressure [Pa]"
+    table = open_run(folder.path).probes.copy()
+    name = "p1 pressure"
     low, high = table[name].min(), table[name].max()
     table[name][at] = 40_000.0
     (axes,) = panels(pictures.draw_probes(table, case)).values()
@@ -260,28 +261,28 @@ def test_a_lone_reading_sets_no_scale_and_is_marked(folder, case, at):
     assert low - 0.2 * (high - low) < bottom <= low and high - 20 < top < high + 20
     line, marks = axes.lines
     np.testing.assert_array_equal(line.get_ydata(), table[name])
-    assert marks.get_xdata() == [table["time [s]"][at]]
+    assert marks.get_xdata() == [table["time"][at]]
     assert axes.get_legend().get_texts()[0].get_text() == "off the scale, to 40,000 Pa"
 
 
 def test_a_peak_of_several_readings_stays_on_the_scale(folder, case):
-    table = pictures.read_table(folder.path / "probes.csv")
-    table["p1 pressure [Pa]"][500:503] = 9_000.0
+    table = open_run(folder.path).probes.copy()
+    table["p1 pressure"][500:503] = 9_000.0
     (axes,) = panels(pictures.draw_probes(table, case)).values()
     assert axes.get_ylim()[1] > 9_000.0 and axes.get_legend() is None
 
 
 def test_the_level_of_water_in_boxes_counts_from_the_bed(folder, case):
     case["water"] = [{"from": [0.0, 0.0, 0.0], "to": [0.1, 0.0, 0.04]}]
-    table = pictures.read_table(folder.path / "gauges.csv")
+    table = open_run(folder.path).gauges.copy()
     figure = pictures.draw_gauges(table, case)
     axes = panels(figure)["g1, x = 0.2 m"]
-    np.testing.assert_array_equal(axes.lines[-1].get_ydata(), table["g1 [m]"])
+    np.testing.assert_array_equal(axes.lines[-1].get_ydata(), table["g1"])
     assert "above z = 0" in text_of(figure)
 
 
 def test_energy_starts_at_that_of_the_motion(folder, case):
-    steps = pictures.read_table(folder.path / "steps.csv")
+    steps = open_run(folder.path).steps
     kinetic, potential, total = (
         line.get_ydata() for line in pictures.draw_energy(steps, case).axes[0].lines
     )
@@ -290,7 +291,7 @@ def test_energy_starts_at_that_of_the_motion(folder, case):
 
 
 def test_solver_names_every_limit_that_held(folder, case):
-    steps = pictures.read_table(folder.path / "steps.csv")
+    steps = open_run(folder.path).steps
     figure = pictures.draw_solver(steps, case)
     legend = figure.axes[1].get_legend()
     assert [text.get_text() for text in legend.get_texts()] == ["growth", "maximum", "courant"]

@@ -207,11 +207,11 @@ def test_motion_more_violent_than_gravity_brings_a_warning(write):
 
 def test_record_says_how_fast_it_is_and_names_no_wave(write):
     motion = replay(write(lines()), height=0.05)
-    facts = dict(motion.facts)
+    facts = motion.facts
     assert motion.height == 0.0
-    assert "76 rows, t = 0 s to 3 s" in facts["record"]
+    assert [facts[name] for name in ("rows", "begin [s]", "end [s]")] == [76, 0.0, 3.0]
     speed = np.abs(np.gradient(PATH, TIMES)).max()
-    assert float(facts["top speed"].split()[0]) == pytest.approx(speed, rel=0.02)
+    assert facts["top_speed [m/s]"] == pytest.approx(speed, rel=0.02)
     bent = np.abs(np.diff(PATH, 2)).max() / 0.04**2
     # A monotone cubic is bent up to three times as much as the motion where that begins.
-    assert 0.95 * bent < float(facts["largest acceleration"].split()[0]) < 3.0 * bent
+    assert 0.95 * bent < facts["largest_acceleration [m/s2]"] < 3.0 * bent

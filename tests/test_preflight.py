@@ -1,15 +1,18 @@
 """What --check foretells: numbers of particles, steps and results, without laying anything out."""
 
+import json
+
 import numpy as np
 import pytest
 from tanks import make_case
 
 from mpslab import cases, census, geometry
 from mpslab.keys import CaseError
-from mpslab.kinds import KIND_NAMES, kinds_of
+from mpslab.kinds import FLUID, KIND_NAMES, kinds_of
 from mpslab.parameters import LISTS
 from mpslab.piston import make_paddle
 from mpslab.preflight import preflight
+from mpslab.preflight_text import sections
 from mpslab.simulation import Simulation
 
 BOX = {"from": [0.66, 0.03, 0.0], "to": [0.82, 0.09, 0.161]}
@@ -66,6 +69,41 @@ def test_columns_too_many_to_look_at_stand_for_one_another(monkeypatch):
     exact = counted(case)
     monkeypatch.setattr(census, "MOST_COLUMNS", 23)
     np.testing.assert_allclose(counted(case), exact, rtol=0.03)
+
+
+@pytest.mark.parametrize("name", cases.names())
+def test_the_words_follow_from_the_numbers_as_json_holds_them(name):
+    report = preflight(cases.load_case(name))
+    read = json.loads(json.dumps(report.findings))
+    assert read == report.findings
+    assert sections(read) == report.sections
+
+
+def test_the_numbers_have_their_units_in_their_names():
+    case = cases.load_case("plunging_breaker")
+    found = preflight(case).findings
+    maker, wave = found["wavemaker"], found["wave"]
+    assert found["particles"]["fluid"] == pytest.approx(laid_out(case)[FLUID], rel=0.02)
+    assert found["largest_time_step [s]"] == case.time.maximum
+    assert maker["stroke [m]"] == make_paddle(case).stroke
+    assert maker["paddle_depth [m]"] == case.tank.depth
+    assert maker["wave_height [m]"] == wave["height [m]"] == pytest.approx(case.wavemaker.height)
+    k, depth = 2.0 * np.pi / wave["wavelength [m]"], case.tank.depth
+    frequency = np.sqrt(9.81 * k * np.tanh(k * depth))
+    assert 2.0 * np.pi / frequency == pytest.approx(case.wavemaker.period, rel=1e-6)
+    assert wave["kh"] == pytest.approx(k * depth)
+    ursell = wave["height [m]"] * wave["wavelength [m]"] ** 2 / depth**3
+    assert wave["ursell_number"] == pytest.approx(ursell)
+    assert not wave["second_order_in_range"] and wave["breaker_type"] == "plunging"
+    still = preflight(cases.load_case("hydrostatic")).findings
+    assert not {"wave", "wavemaker"} & set(still) and still["warnings"] == []
+
+
+def test_faces_are_told_as_they_are_laid_out():
+    case = cases.load_case("dam_break", {"obstacle": [{**BOX, "from": [0.66, 0.0, 0.0]}]})
+    (faces,) = preflight(case).findings["laid_out"].values()
+    assert faces["x [m]"] == pytest.approx([0.66, 0.82])
+    assert faces["y [m]"][0] is None and faces["z [m]"][0] is None
 
 
 def test_check_lays_out_nothing(monkeypatch):

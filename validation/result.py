@@ -68,7 +68,7 @@ def draws_of(outcomes, runs):
     pairs = [(o.task.plan, run) for o, run in zip(outcomes, runs, strict=True)]
     count = 1 + max((plan.draw for plan, _ in pairs), default=0)
     draws = [{plan.first: run for plan, run in pairs if plan.draw in (0, k)} for k in range(count)]
-    return [{name: run for name, run in draw.items() if run.steps} for draw in draws]
+    return [{name: run for name, run in draw.items() if len(run.steps)} for draw in draws]
 
 
 def make(case, suite, outcomes, known):
@@ -129,8 +129,8 @@ def ledger(outcomes, runs):
     rows = []
     for outcome, run in zip(outcomes, runs, strict=True):
         steps = run.steps
-        if steps:
-            books, volume = measures.ledger(steps), steps["volume [m3]"]
+        if len(steps):
+            books, volume = measures.ledger(steps), steps["volume"]
             settled = volume[: len(volume) // 10 + 1].mean()
             change = 100.0 * (volume[-1] / settled - 1.0)
             rows.append([outcome.task.plan.name, *books.values(), *run.momentum(), change,
@@ -145,7 +145,7 @@ def _run(outcome, run):
         "case": plan.resolved.name,
         "changes": plan.changes,
         "particles": sum(record.get("particles", {}).values()),
-        "steps": len(run.steps.get("step", ())),
+        "steps": len(run.steps),
         "seconds": record.get("wall_time [s]", 0.0),
         "outcome": outcome.outcome,
         "reason": outcome.reason,

@@ -43,11 +43,13 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     samples = np.concatenate([times[times <= end], np.linspace(0.0, end, 2001)])
     whole = np.concatenate([times, np.linspace(0.0, max(times[-1], wavemaker.start), 2001)])
     speed, acceleration = _fastest(curve, end)
-    facts = (
-        ("record", f"{len(times)} rows, t = {times[0]:g} s to {times[-1]:g} s of the run"),
-        ("top speed", f"{speed:.3g} m/s"),
-        ("largest acceleration", f"{acceleration:.3g} m/s2"),
-    )
+    facts = {
+        "rows": len(times),
+        "begin [s]": times[0],
+        "end [s]": times[-1],
+        "top_speed [m/s]": speed,
+        "largest_acceleration [m/s2]": acceleration,
+    }
     doubts = (
         _late(times, wavemaker, end),
         _short(times, end),

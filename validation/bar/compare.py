@@ -22,8 +22,8 @@ def compare(runs):
     result = Comparison()
     runs = sorted(runs.values(), key=lambda run: -run.spacing)
     finest = runs[-1]
-    period, height = finest.case["wavemaker"]["period"], finest.case["wavemaker"]["height"]
-    x = np.array([gauge["x"] for gauge in finest.case["gauge"]])
+    period, height = finest.case.wavemaker.period, finest.case.wavemaker.height
+    x = np.array([gauge.x for gauge in finest.case.gauge])
     gauges = {place: _Gauge(place) for place in x}
     measured = np.array([gauges[place].amplitudes(period) for place in x])
     seen = [_seen(run, x) for run in runs]
@@ -55,12 +55,12 @@ def _error(seen, measured, x, height):
 
 def _start(run):
     """From when on the harmonics of a run are taken [s]."""
-    return run.case["time"]["end"] - (PERIODS + 0.1) * run.case["wavemaker"]["period"]
+    return run.case.time.end - (PERIODS + 0.1) * run.case.wavemaker.period
 
 
 def _fit(run, place):
     """Mean level and complex harmonics of a run at a gauge [m]."""
-    period = run.case["wavemaker"]["period"]
+    period = run.case.wavemaker.period
     return harmonics(*run.gauge(f"x{place}"), period, _start(run), PERIODS)
 
 
@@ -93,7 +93,7 @@ class _Gauge:
 
 def _hold_levels(result, run, gauges):
     """Put the waves at each gauge into the table of errors, the clocks of the groups set."""
-    period, start = run.case["wavemaker"]["period"], _start(run)
+    period, start = run.case.wavemaker.period, _start(run)
     ahead = {gauges[place].time[0]: _ahead(run, place, gauges[place]) for place in CLOCKS}
     for place, gauge in gauges.items():
         time, level = run.gauge(f"x{place}")
@@ -114,7 +114,7 @@ def _ahead(run, place, gauge):
     Of the many times that fit, that for which the part of the run that is compared falls on the
     steady part of the record.
     """
-    period = run.case["wavemaker"]["period"]
+    period = run.case.wavemaker.period
     turn = np.angle(_fit(run, place)[1] / gauge.fit(period)[1]) / (2.0 * np.pi)
     return period * (turn + np.ceil((MEASURED_FROM - _start(run)) / period - turn))
 

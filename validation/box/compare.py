@@ -26,14 +26,14 @@ def compare(runs):
 
 
 def _compare_levels(result, runs, data):
-    time, gauges = data["t [s]"], [gauge["name"] for gauge in runs[-1].case["gauge"]]
+    time, gauges = data["t [s]"], [gauge.name for gauge in runs[-1].case.gauge]
     errors = np.array([[_level_error(run, gauge, data) for gauge in gauges] for run in runs])
     for gauge in gauges:
         measured, place = data[f"depth_{gauge} [m]"], gauge.replace("x", "x = ")
         figure = result.figure(f"Level at {place} m", "time [s]", "level [m]")
         for run in runs:
             figure.line(run.label, *_level(run, gauge))
-        part = time <= runs[-1].case["time"]["end"]
+        part = time <= runs[-1].case.time.end
         figure.dashed("Kleefsman et al. 2005", time[part], measured[part])
         result.hold(f"level at {place} m [m], [s]", *_level(runs[-1], gauge), time, measured)
     result.measure("levels", errors[-1].max())

@@ -10,14 +10,14 @@ def compare(runs):
     """Largest rise of the energy, closest pair, and what was lost."""
     result, run = Comparison(), runs["column"]
     steps = run.steps
-    total = steps["kinetic_energy [J]"] + steps["potential_energy [J]"]
+    total = steps["kinetic_energy"] + steps["potential_energy"]
     change = 100.0 * np.diff(total) / total[0]
     time, closest, behind = _order(run)
     result.measure("rise", change.max())
     result.measure("closest", closest.min())
     result.measure("lost", steps["lost"][-1])
     energy = result.figure("Energy of the water", "time [s]", "energy over that at the start")
-    energy.line(run.label, steps["time [s]"], total / total[0])
+    energy.line(run.label, steps["time"], total / total[0])
     pairs = result.figure("Closest pair", "time [s]", "distance [d0]")
     pairs.line(run.label, time, closest)
     columns = ["run", "largest rise in a step [%]", "largest fall [%]", "energy left",
@@ -32,7 +32,7 @@ def _order(run):
     """Time [s], distance of the closest pair of water, and how far the foremost centre is behind
     bed or end walls, negative where all are in front [spacings], frame by frame.
     """
-    length, rows = run.case["tank"]["length"], []
+    length, rows = run.case.tank.length, []
     for time, place, _ in run.water():
         closest = cKDTree(place).query(place, k=2)[0][:, 1].min()
         x, _, z = place.T

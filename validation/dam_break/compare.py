@@ -23,7 +23,7 @@ BESIDE = ("mps", "paper", "lobovsky-smooth")  # not judged; the others are of `s
 def compare(runs):
     """Fronts, levels and pressures."""
     result = Comparison()
-    runs = {name: run for name, run in runs.items() if run.steps}
+    runs = {name: run for name, run in runs.items() if len(run.steps)}
     _compare_front(result, {n: r for n, r in runs.items() if n.startswith("martin-moyce")})
     impacts = {n: r for n, r in runs.items() if not n.startswith("martin-moyce")}
     _compare_levels(result, impacts)
@@ -38,13 +38,13 @@ def _from_coarse_to_fine(runs):
 
 def _standard(runs):
     """The 2-D runs of the recipe `standard` by name, the finest last."""
-    flat = {n: r for n, r in runs.items() if n not in BESIDE and r.case["tank"]["width"] == 0.0}
+    flat = {n: r for n, r in runs.items() if n not in BESIDE and r.case.tank.width == 0.0}
     return _from_coarse_to_fine(flat)
 
 
 def _label(run):
     """Recipe, spacing, and whether walls have no friction."""
-    return run.label + (", no friction" if run.case["scheme"]["wall_slip"] else "")
+    return run.label + (", no friction" if run.case.scheme.wall_slip else "")
 
 
 def _converge(result, title, runs, errors):
@@ -238,7 +238,7 @@ def _compare_impulses(result, finest, runs, band, event):
         ours = np.array([_impulse(time, p, came, lasting) for _, p in seen])
         hit = _arrival(band.time, measured[0])
         theirs = np.array([_impulse(band.time, p, hit, lasting) for p in measured])
-        height = [probe["z"] for probe in run.case["probe"] if probe["name"] in SENSORS]
+        height = [probe.z for probe in run.case.probe if probe.name in SENSORS]
         wall = _along(height, ours) / _along(height, theirs)
         rows.append([_label(run), *(ours / theirs), wall])
         if name == finest:

@@ -51,9 +51,9 @@ class _Stream:
 
     def __init__(self, run):
         self.run = run
-        probes = run.case["probe"]
-        self.height = np.array([probe["z"] for probe in probes]) / run.depth
-        records = [run.pressure(probe["name"]) for probe in probes]
+        probes = run.case.probe
+        self.height = np.array([probe.z for probe in probes]) / run.depth
+        records = [run.pressure(probe.name) for probe in probes]
         steady = [p[(t > STEADY[0]) & (t < STEADY[1])] / self.stagnation for t, p in records]
         self.pressure = np.array([p.mean() if len(p) else np.nan for p in steady])
         self.noise = np.array([p.std() if len(p) else np.nan for p in steady])
@@ -63,16 +63,16 @@ class _Stream:
     @property
     def stagnation(self):
         """Pressure of stagnation [Pa]."""
-        return 0.5 * self.run.density * self.run.case["initial"]["speed"] ** 2
+        return 0.5 * self.run.density * self.run.case.initial.speed**2
 
     def _force(self):
         """Pressure of the wall's first layer, added up, mean of the frames."""
-        wall, sums = self.run.case["tank"]["length"], []
-        for time, frame in self.run.frames():
+        wall, sums = self.run.case.tank.length, []
+        for frame in self.run.frames:
             x = frame["position"].astype(float)
             behind = x[:, 0] - wall
             first = (frame["kind"] != FLUID) & (behind > 0.0) & (behind < self.run.spacing)
-            if STEADY[0] < time < STEADY[1]:
+            if STEADY[0] < frame.time < STEADY[1]:
                 sums.append(frame["pressure"][first & (x[:, 2] > 0.0)].sum(dtype=float))
         whole = 2.0 * self.stagnation * self.run.depth
         return np.mean(sums) * self.run.spacing / whole if sums else np.nan
@@ -97,10 +97,8 @@ def _draw(result, streams, finest):
     for name in ("0 h", "2 h"):
         time, pressure = finest.run.pressure(name)
         record.line(f"{finest.run.label}, z = {name}", time, pressure / finest.stagnation)
-    _, frame = finest.run.frame_at(STEADY[1])
+    frame = finest.run.frames.at(STEADY[1])
     x, _, z = frame["position"][frame["kind"] == FLUID].astype(float).T
-    near = (x > finest.run.case["tank"]["length"] - 5.0 * finest.run.depth) & (
-        z < 5.0 * finest.run.depth
-    )
+    near = (x > finest.run.case.tank.length - 5.0 * finest.run.depth) & (z < 5.0 * finest.run.depth)
     shape = result.figure(f"Water at t = {STEADY[1]:g} s", "x [m]", "z [m]", equal=True)
     shape.points("water", x[near], z[near])

@@ -119,7 +119,7 @@ class _Drop:
 
     def __init__(self, run):
         body, self.spacing = _Body(run), run.spacing
-        self.time = run.case["initial"]["rate"] * body.time
+        self.time = run.case.initial.rate * body.time
         self.long, self.short = body.axes()
         self.error = self.gain = self.drift = self.turn = np.nan
         if self.time[-1] >= MOMENT - 1e-3:
@@ -149,7 +149,7 @@ def _ellipse(time):
 
 
 def _compare_square(result, run):
-    rate, body = run.case["initial"]["rate"], _Body(run)
+    rate, body = run.case.initial.rate, _Body(run)
     time = rate * body.time
     figure = result.figure("Square that spins", "rate x time", "of the start")
     figure.line("kinetic energy", time, body.energy / body.energy[0])
@@ -168,15 +168,15 @@ def _compare_square(result, run):
 
 def _pressure(run):
     """Mean pressure of the water in the middle tenth of the square, at rate x time = 0.1 [Pa]."""
-    _, frame = run.frame_at(EARLY / run.case["initial"]["rate"])
+    frame = run.frames.at(EARLY / run.case.initial.rate)
     wet, x = frame["kind"] == FLUID, frame["position"]
     near = np.linalg.norm(x - x[wet].mean(axis=0), axis=1) < 0.1 * _side(run)
     return frame["pressure"][wet & near].mean()
 
 
 def _side(run):
-    (box,) = run.case["water"]
-    return box["to"][0] - box["from"][0]
+    (box,) = run.case.water
+    return box.end[0] - box.start[0]
 
 
 def _tension(run):
@@ -188,7 +188,7 @@ def _tension(run):
     signs = np.sin(0.5 * np.pi * m) / m
     waves = (m[:, None] ** 2 + m[None, :] ** 2) * (np.pi / _side(run)) ** 2
     total = np.sum(signs[:, None] * signs[None, :] / waves)
-    return -32.0 * run.density * run.case["initial"]["rate"] ** 2 / np.pi**2 * total
+    return -32.0 * run.density * run.case.initial.rate**2 / np.pi**2 * total
 
 
 class _Body:

@@ -20,10 +20,11 @@ SHALLOW = 2.0  # [spacings] of water: in less, a height over the depth has no me
 def crests(run):
     """Time [s] and `mpslab.overturning.Crest` of the water on the slope, frame by frame, a list."""
     found = []
-    for time, frame in run.frames():
-        piece = middle_slice(time, frame, run.spacing, run.case["tank"]["width"])
+    for frame in run.frames:
+        piece = middle_slice(frame.time, frame, run.spacing, run.case.tank.width)
         wet = piece.fluid & (piece.x > ON_SLOPE)
-        found.append((time, find_crest(piece.x[wet], piece.z[wet], piece.speed[wet], run.spacing)))
+        crest = find_crest(piece.x[wet], piece.z[wet], piece.speed[wet], run.spacing)
+        found.append((frame.time, crest))
     return found
 
 
@@ -87,14 +88,14 @@ class Breaker:
 
 def _range(run, x, time):
     """Range of the level at a place over the period before a time [m]."""
-    period, levels = run.case["wavemaker"]["period"], []
-    for moment, frame in run.frames():
-        if time - period < moment <= time:
-            place = frame["position"].astype(float)
-            levels.append(gauges.surface_elevation(
-                place, frame["kind"], run.spacing, x, 0.5 * run.case["tank"]["width"],
-                run.case["tank"]["width"],
-            ))  # fmt: skip
+    period, width = run.case.wavemaker.period, run.case.tank.width
+    levels = [
+        gauges.surface_elevation(
+            frame.position.astype(float), frame.kind, run.spacing, x, 0.5 * width, width
+        )
+        for frame in run.frames
+        if time - period < frame.time <= time
+    ]
     return np.nanmax(levels) - np.nanmin(levels)
 
 
@@ -110,7 +111,7 @@ class Waves:
 
     def __init__(self, name, run):
         self.name, self.run = name, run
-        self.period = run.case["wavemaker"]["period"]
+        self.period = run.case.wavemaker.period
         time, level = run.gauge("toe")
         crest = np.argmax(np.where(time < self.period, level, -np.inf))
         trough = level[crest:][time[crest:] < time[crest] + self.period].min()

@@ -34,8 +34,8 @@ TIP = 10.0  # [spacings] around the crest
 def compare(runs):
     """The waves of `standard`, and the recipes beside each other."""
     result = Comparison()
-    rows = {name: measures.measure(run.folder) for name, run in runs.items()}
-    paper = {n: r for n, r in runs.items() if r.case["wavemaker"]["height"] == HEIGHT}
+    rows = {name: measures.measure(run) for name, run in runs.items()}
+    paper = {n: r for n, r in runs.items() if r.case.wavemaker.height == HEIGHT}
     standard = {n: r for n, r in paper.items() if n.startswith("standard")}
     found = [Waves(name, run) for name, run in standard.items()]
     _measure_waves(result, found[0], thrice="standard-2mm-long" in runs)
@@ -77,7 +77,7 @@ def _similarity(wave):
 
 def _growth(run):
     """Change of the volume from its mean over the first tenth of the run [%]."""
-    time, volume = run.steps["time [s]"], run.steps["volume [m3]"]
+    time, volume = run.steps["time"], run.steps["volume"]
     return 100.0 * (volume[-1] / volume[time < 0.1 * time[-1]].mean() - 1.0)
 
 
@@ -130,13 +130,13 @@ def _draw_breaking(result, found):
     for wave in found:
         if not wave.second.overturns:
             continue
-        time, frame = wave.run.frame_at(wave.second.time + 0.025)
-        piece = middle_slice(time, frame, wave.run.spacing, wave.run.case["tank"]["width"])
+        frame = wave.run.frames.at(wave.second.time + 0.025)
+        piece = middle_slice(frame.time, frame, wave.run.spacing, wave.run.case.tank.width)
         near = np.abs(piece.x - wave.second.x) < 0.12
-        title = f"{wave.name}: the second wave at t = {time:.3f} s"
+        title = f"{wave.name}: the second wave at t = {frame.time:.3f} s"
         figure = result.figure(title, "x [m]", "z [m]", equal=True)
         figure.points("water", piece.x[near & piece.fluid], piece.z[near & piece.fluid])
-        x, z = np.array(wave.run.case["tank"]["bed"]).T
+        x, z = np.array(wave.run.case.tank.bed).T
         bed = np.linspace(wave.second.x - 0.12, wave.second.x + 0.12, 50)
         figure.dashed("bed", bed, np.interp(bed, x, z))
 
@@ -177,7 +177,7 @@ def _compare_tips(result, recipes):
     """Scatter around the crest, or the tip of the jet, where the wave of `standard` breaks."""
     _, run = recipes["standard"]
     found, times = crests(run), {"first": FIRST}
-    if run.case["wavemaker"]["height"] == HEIGHT:
+    if run.case.wavemaker.height == HEIGHT:
         times["second"] = SECOND
     places = {wave: moment(found, between, run.spacing)[1] for wave, between in times.items()}
     tips = {
@@ -204,17 +204,15 @@ def _tip(run, place, between):
 
     Neighbours beyond the circle around the place do not count, for any recipe.
     """
-    frames = [(time, frame) for time, frame in run.frames() if between[0] < time < between[1]]
+    frames = [frame for frame in run.frames if between[0] < frame.time < between[1]]
     levels = [
-        gauges.surface_elevation(
-            frame["position"].astype(float), frame["kind"], run.spacing, place.x
-        )
-        for _, frame in frames
+        gauges.surface_elevation(frame.position.astype(float), frame.kind, run.spacing, place.x)
+        for frame in frames
     ]
     if not np.isfinite(levels).any():
         return [np.nan] * 5 + [place.x]
-    when = frames[np.nanargmax(levels)][0]
-    means = [_scatter(run, frame, place) for time, frame in frames if abs(time - when) <= AROUND]
+    when = frames[np.nanargmax(levels)].time
+    means = [_scatter(run, frame, place) for frame in frames if abs(frame.time - when) <= AROUND]
     return [*np.mean(means, axis=0), when, place.x]
 
 
@@ -233,6 +231,6 @@ def _show_particles(result, runs):
     """Pictures of each run where a wave overturns first, or its front stands upright."""
     for name, run in runs.items():
         with matplotlib.rc_context(STYLE):
-            drawn = draw_breaker(run.folder / "particles.vtkhdf", run.case)
+            drawn = draw_breaker(run.frames, run.tables)
         if drawn:
             result.picture(f"The particles of {name}", drawn)

@@ -101,11 +101,11 @@ class _Train:
     """
 
     def __init__(self, run):
-        maker = run.case["wavemaker"]
-        self.spacing, self.half = run.spacing, 0.5 * maker["height"]
-        self.length = wavelength(maker["period"], run.depth, run.gravity)
-        self.over = LENGTHS[run.case["name"]]
-        self.rows = np.array([_gauge(run, gauge) for gauge in run.case["gauge"]])
+        maker = run.case.wavemaker
+        self.spacing, self.half = run.spacing, 0.5 * maker.height
+        self.length = wavelength(maker.period, run.depth, run.gravity)
+        self.over = LENGTHS[run.case.name]
+        self.rows = np.array([_gauge(run, gauge) for gauge in run.case.gauge])
         self.x, self.height, self.first = self.rows.T[:3]
         self.used = np.isfinite(self.first) & (self.x < (1.05 + self.over) * self.length)
         enough = np.count_nonzero(self.used) >= FEWEST
@@ -132,11 +132,11 @@ def _gauge(run, gauge):
     the toe of the beach reflects comes back, or the run ends, over the last whole periods. What
     the toe reflects of the soft start, which comes before the steady wave, may be in them.
     """
-    maker, period = run.case["wavemaker"], run.case["wavemaker"]["period"]
+    maker, period = run.case.wavemaker, run.case.wavemaker.period
     speed = group_celerity(period, run.depth, run.gravity)
-    x, toe, (time, level) = gauge["x"], run.case["tank"]["bed"][1][0], run.gauge(gauge["name"])
-    came = maker["start"] + SETTLE * period + x / speed
-    end = min(maker["start"] + (2.0 * toe - x) / speed, time[-1])
+    x, toe, (time, level) = gauge.x, run.case.tank.bed[1][0], run.gauge(gauge.name)
+    came = maker.start + SETTLE * period + x / speed
+    end = min(maker.start + (2.0 * toe - x) / speed, time[-1])
     periods = int((end - came) / period + 0.3)
     if periods < PERIODS:
         return x, np.nan, np.nan, np.nan, periods

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import gauges, vtkhdf, waves
+from mpslab import gauges, waves
 from validation.comparison import Comparison
 from validation.data import foremost
 
@@ -57,7 +57,7 @@ def compare(runs):
 
 def _row(name, run):
     """Line of the table of run-ups."""
-    asked, runup = run.case["wavemaker"]["height"] / run.depth, _runup(run) / run.depth
+    asked, runup = run.case.wavemaker.height / run.depth, _runup(run) / run.depth
     law = _law(asked, _cot(run))
     return [name, asked, _crest(run)[1] / run.depth / asked, runup, law, runup / law]
 
@@ -91,11 +91,11 @@ def _crest(run):
 
     Looked for from when the wave has come to half its height until it could be back from the toe.
     """
-    gauge, height = run.case["gauge"][0], run.case["wavemaker"]["height"]
-    time, level = run.gauge(gauge["name"])
+    gauge, height = run.case.gauge[0], run.case.wavemaker.height
+    time, level = run.gauge(gauge.name)
     speed = waves.solitary_celerity(height, run.depth, run.gravity)
     came = time[np.argmax(level - run.depth > 0.5 * height)]
-    part = (time >= came) & (time <= came + 2.0 * (_toe(run) - gauge["x"]) / speed)
+    part = (time >= came) & (time <= came + 2.0 * (_toe(run) - gauge.x) / speed)
     time, level = time[part], level[part] - run.depth
     top = level > TOP * level.max()
     middle = time[top].mean()
@@ -105,12 +105,12 @@ def _crest(run):
 
 def _toe(run):
     """x of the toe of the beach [m]."""
-    return run.case["tank"]["bed"][1][0]
+    return run.case.tank.bed[1][0]
 
 
 def _cot(run):
     """Length of the beach over its height."""
-    _, (toe, low), (end, high) = run.case["tank"]["bed"]
+    _, (toe, low), (end, high) = run.case.tank.bed
     return (end - toe) / (high - low)
 
 
@@ -177,11 +177,11 @@ def _compare_profiles(result, run):
 
 def _profile(run, moment, places):
     """Elevation at places [m] at a time, between those of the frames before and after it [m]."""
-    times = vtkhdf.read_times(run.folder / "particles.vtkhdf")
+    times = run.frames.times
     after = np.searchsorted(times, moment)
     bed = (places - _shoreline(run)) / _cot(run) + run.depth
     earlier, later = (
-        _levels(run, run.frame_at(time)[1], places, bed) for time in times[after - 1 : after + 1]
+        _levels(run, frame, places, bed) for frame in run.frames[after - 1 : after + 1]
     )
     share = (moment - times[after - 1]) / (times[after] - times[after - 1])
     return earlier + share * (later - earlier) - run.depth

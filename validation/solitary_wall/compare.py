@@ -34,7 +34,7 @@ def compare(runs):
 
 def _row(name, run):
     """Line of the table of run-ups."""
-    asked, height = run.case["wavemaker"]["height"] / run.depth, _incident(run)[1] / run.depth
+    asked, height = run.case.wavemaker.height / run.depth, _incident(run)[1] / run.depth
     runup = _runup(run) / run.depth
     return [name, asked, height, runup, _theory(height), runup / _theory(height)]
 
@@ -88,8 +88,8 @@ def _incident(run):
     the wall [m].
     """
     time, level = run.gauge("incident")
-    speed = waves.solitary_celerity(run.case["wavemaker"]["height"], run.depth, run.gravity)
-    way = run.case["tank"]["length"] - run.case["gauge"][0]["x"]
+    speed = waves.solitary_celerity(run.case.wavemaker.height, run.depth, run.gravity)
+    way = run.case.tank.length - run.case.gauge[0].x
     at_wall = time[np.argmax(run.gauge("wall")[1])]
     top = np.argmax(np.where(time < at_wall - 0.3 * way / speed, level, -np.inf))
     return time[top], level[top] - run.depth

@@ -58,9 +58,9 @@ class _Wave:
     """First mode of a run, in linear amplitudes, against time in linear periods."""
 
     def __init__(self, run):
-        tank, initial = run.case["tank"], run.case["initial"]
-        self.spacing, length, depth = run.spacing, tank["length"], tank["depth"]
-        amplitude, k = initial["amplitude"], np.pi / length
+        tank, initial = run.case.tank, run.case.initial
+        self.spacing, length, depth = run.spacing, tank.length, tank.depth
+        amplitude, k = initial.amplitude, np.pi / length
         frequency = standing_wave_frequency(1, length, depth, run.gravity)
         rows = [(t, 2.0 * self.spacing**2 / length * np.cos(k * x[:, 0]).sum(), x[:, 2].mean())
                 for t, x, _ in run.water()]  # fmt: skip

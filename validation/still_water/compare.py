@@ -25,7 +25,7 @@ def _noise(run, start):
     cent of the weight of the water over the bed; NaN if the run ended before.
     """
     found = {}
-    for name in (probe["name"] for probe in run.case["probe"]):
+    for name in (probe.name for probe in run.case.probe):
         time, pressure = run.pressure(name)
         part = pressure[time >= start]
         found[name] = 100.0 * part.std() / _weight(run) if len(part) else np.nan
@@ -54,13 +54,13 @@ class _Box:
     def __init__(self, run):
         self.run, rows = run, []
         extra = 0.5 * run.density * run.gravity * run.spacing
-        for time, frame in run.frames():
+        for frame in run.frames:
             place, wet = frame["position"], frame["kind"] == FLUID
             bed = (frame["kind"] == WALL) & (place[:, 2] < 0.0) & (place[:, 0] > 0.0)
-            bed &= place[:, 0] < run.case["tank"]["length"]
+            bed &= place[:, 0] < run.case.tank.length
             speed = np.sqrt(np.mean(np.sum(frame["velocity"][wet].astype(float) ** 2, axis=1)))
             pressure = (frame["pressure"][bed].mean() - extra) / _weight(run)
-            rows.append((time, pressure, speed, place[wet, 2].mean()))
+            rows.append((frame.time, pressure, speed, place[wet, 2].mean()))
         self.time, self.pressure, self.speed, self.height = np.array(rows).T
         self.settled = self.time >= SETTLED
         self.noise = _noise(run, SETTLED)
@@ -69,7 +69,7 @@ class _Box:
         """Mean pressure, its deviation [%], that at the worse probe [%], rms speed [mm/s], and
         rise of the level from the start to the last tenth [%]; NaN if the run ended before.
         """
-        end = self.run.case["time"]["end"]
+        end = self.run.case.time.end
         last = self.time > LAST * end
         if not last.any():
             return (np.nan,) * 5
@@ -121,11 +121,11 @@ def _draw_boxes(result, boxes):
     pressure.dashed("hydrostatic", [0.0, boxes["box"].time[-1]], [1.0, 1.0])
     run = boxes["box"].run
     probes = result.figure("Pressure at the probes of the box", "time [s]", "p / (rho g h)")
-    for probe in run.case["probe"]:
-        time, seen = run.pressure(probe["name"])
-        probes.line(run.label + f", z = {probe['z'] / run.depth:g} h", time,
+    for probe in run.case.probe:
+        time, seen = run.pressure(probe.name)
+        probes.line(run.label + f", z = {probe.z / run.depth:g} h", time,
                     seen / _weight(run))  # fmt: skip
-        probes.dashed("hydrostatic", [0.0, time[-1]], [1.0 - probe["z"] / run.depth] * 2)
+        probes.dashed("hydrostatic", [0.0, time[-1]], [1.0 - probe.z / run.depth] * 2)
 
 
 class _Tank:
@@ -151,8 +151,8 @@ class _Tank:
         self.z, self.pressure, self.speed = _profile(run)
         miss = self.pressure - run.density * run.gravity * (run.depth - self.z)
         self.error = 100.0 * np.sqrt(np.mean(miss**2)) / _weight(run)
-        self.drift = {gauge["name"]: _drift(run, gauge["name"]) for gauge in run.case["gauge"]}
-        self.noise = _noise(run, 0.5 * run.case["time"]["end"])
+        self.drift = {gauge.name: _drift(run, gauge.name) for gauge in run.case.gauge}
+        self.noise = _noise(run, 0.5 * run.case.time.end)
 
     def figures(self):
         """Error, speed, drifts and noises."""
@@ -180,11 +180,11 @@ def _compare_tanks(result, tanks):
 
 def _profile(run):
     """Layers z [m], their mean pressure [Pa], and the rms speed [mm/s], second half of the run."""
-    end, layers = run.case["time"]["end"], round(run.depth / run.spacing)
+    end, layers = run.case.time.end, round(run.depth / run.spacing)
     total, count, squares = np.zeros(layers), np.zeros(layers), []
     height = np.zeros(layers)
-    for time, frame in run.frames():
-        if time < 0.5 * end:
+    for frame in run.frames:
+        if frame.time < 0.5 * end:
             continue
         place, wet = frame["position"].astype(float), frame["kind"] == FLUID
         squares.append(np.mean(np.sum(frame["velocity"][wet].astype(float) ** 2, axis=1)))
@@ -202,6 +202,6 @@ def _drift(run, gauge):
     """Change of the level at a gauge, first to last tenth of the run [spacings]; NaN if it ended
     before.
     """
-    (time, level), end = run.gauge(gauge), run.case["time"]["end"]
+    (time, level), end = run.gauge(gauge), run.case.time.end
     first, last = level[time < 0.1 * end], level[time > LAST * end]
     return (last.mean() - first.mean()) / run.spacing if len(last) else np.nan

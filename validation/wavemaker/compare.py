@@ -24,11 +24,11 @@ def _compare_regular(result, runs):
     figure = result.figure("Regular waves one wavelength from the piston", "t / T", "level / H")
     rows = []
     for name, run in runs.items():
-        maker, (gauge,) = run.case["wavemaker"], run.case["gauge"]
-        time, level = run.gauge(gauge["name"])
-        period, height = maker["period"], maker["height"]
+        maker, (gauge,) = run.case.wavemaker, run.case.gauge
+        time, level = run.gauge(gauge.name)
+        period, height = maker.period, maker.height
         speed = waves.group_celerity(period, run.depth, run.gravity)
-        came = maker["start"] + SETTLE * period + gauge["x"] / speed
+        came = maker.start + SETTLE * period + gauge.x / speed
         found = harmonics(time, level - run.depth, period, came, PERIODS)
         figure.line(name.replace("-", " = "), time / period, (level - run.depth) / height)
         rows.append([name, 1e3 * height, 2e3 * abs(found[1]), 2.0 * abs(found[1]) / height])
@@ -60,7 +60,7 @@ def _compare_solitary(result, runs):
             [wave.spacing for wave in found.values()],
             [wave.lost for wave in found.values()],
         )
-    places = [gauge["name"] for gauge in next(iter(runs.values())).case["gauge"]]
+    places = [gauge.name for gauge in next(iter(runs.values())).case.gauge]
     columns = ["run", *(f"height at {g}" for g in places), "speed ratio", "shape [% of H]"]
     result.table("Solitary wave over theory", columns, [
         [wave.label, *wave.heights, wave.speed, 100.0 * wave.shape] for wave in found.values()
@@ -89,10 +89,10 @@ class _Solitary:
 
     def __init__(self, run):
         self.spacing, depth = run.spacing, run.depth
-        asked = run.case["wavemaker"]["height"]
+        asked = run.case.wavemaker.height
         self.label = f"standard, d0 = d / {depth / run.spacing:.0f}"
         celerity = waves.solitary_celerity(asked, depth, run.gravity)
-        gauges = [gauge["name"] for gauge in run.case["gauge"]]
+        gauges = [gauge.name for gauge in run.case.gauge]
         crests = {name: _crest(*run.gauge(name), depth, asked, celerity) for name in gauges}
         self.heights = [top / asked for _, top in crests.values()]
         moment, top = crests["20d"]

@@ -70,11 +70,11 @@ class _Match:
 
     def __init__(self, name, run, film):
         self.name, self.run, self.film = name, run, film
-        frames = [(time, _surface(frame, run.spacing), _front(frame, run.spacing))
-                  for time, frame in run.frames()]  # fmt: skip
+        frames = [(frame.time, _surface(frame, run.spacing), _front(frame, run.spacing))
+                  for frame in run.frames]  # fmt: skip
         moments, self._surfaces, fronts = zip(*frames, strict=True)
         self._moments, self._fronts = np.array(moments), np.array(fronts)
-        step = run.case["output"]["interval"]
+        step = run.case.output.interval
         shifts = step * np.arange(round(LATEST / step), round(EARLIEST / step) + 1)
         self.shift = min(shifts, key=lambda shift: np.mean(np.square(self._apart(shift))))
         self.distances = self._apart(self.shift)
@@ -131,7 +131,7 @@ class _Match:
         return np.argmin(np.abs(self._moments - time))
 
     def _times(self, shift):
-        last = self.run.case["time"]["end"]
+        last = self.run.case.time.end
         return [time for time in self.film if time - shift <= last]
 
     def _apart(self, shift):
@@ -141,7 +141,7 @@ class _Match:
 
     def _crest(self, time):
         """Where the water of the simulation hangs over air."""
-        _, frame = self.run.frame_at(time - self.shift)
+        frame = self.run.frames.at(time - self.shift)
         wet = frame["kind"] == FLUID
         x, z = frame["position"][wet, 0], frame["position"][wet, 2]
         speed = np.linalg.norm(frame["velocity"][wet], axis=1)
