@@ -7,7 +7,6 @@ from matplotlib.figure import Figure
 from mpslab.headings import heading
 from mpslab.results import open_run
 from mpslab.snapshots import draw_breaker, draw_tank
-from mpslab.tables import read_table  # noqa: F401 (others look for it here)
 
 # Okabe and Ito's colours, which stay apart for the colour-blind.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
@@ -70,11 +69,6 @@ def listed(drawn):
     if "tank" in names and "breaker" not in names:
         lines.append("(no breaker.png: no wave is seen to overturn, or to have an upright front)")
     return lines
-
-
-def read_case(folder):
-    """The resolved case of a run folder, a dict; ValueError if there is none."""
-    return open_run(folder).tables
 
 
 def _figures(run):

@@ -8,10 +8,10 @@ import numpy as np
 
 from mpslab import balance, load_case, vtkhdf
 from mpslab.kinds import FLUID
-from mpslab.pictures import read_table
 from mpslab.piston import make_paddle
 from mpslab.rebalance import load
 from mpslab.step import slabs_of
+from mpslab.tables import read_table
 from paper_figures.measures import measure
 
 TIMES = (1.0, 1.04, 1.09, 1.12, 1.16, 1.2)  # [s] of the snapshots

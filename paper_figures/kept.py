@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab.pictures import read_case, read_table
+from mpslab import open_run
+from mpslab.tables import read_table
 from paper_figures.keep import LEVELS, MILLIMETRE
 
 
@@ -45,7 +46,7 @@ class Kept:
     @cached_property
     def case(self):
         """The resolved case, a dict of tables."""
-        return read_case(self.folder)
+        return open_run(self.folder).tables
 
     @property
     def spacing(self):

@@ -105,7 +105,7 @@ def test_frames_are_read_by_number_by_slice_and_by_time(made):
     assert part[-1].time == frames[5].time and part.at(0.0).time == frames[1].time
     shape = (len(last.kind), 3)
     assert last.position.shape == last.velocity.shape == shape and last.pressure.shape == shape[:1]
-    assert set(last) == {"position", *simulation.case.output.fields, "kind"}
+    assert set(last) == {"position", *simulation.case.output.fields, "kind", "body"}
     assert last.fluid.sum() == np.count_nonzero(simulation.particles.fluid)
     water = last.position[last.fluid]
     assert (water[:, 2] > 0.0).all() and water[:, 2].max() < 0.03
@@ -126,7 +126,7 @@ def test_a_field_that_the_frames_do_not_hold_is_named(tmp_path):
     frame = Frames(path)[0]
     assert frame.fluid.all()
     for name in ("velocity", "pressure"):
-        with pytest.raises(ValueError, match=f"hold no {name}, only position, kind; output"):
+        with pytest.raises(ValueError, match=f"hold no {name}, only position, body, kind; output"):
             getattr(frame, name)
 
 
