@@ -158,8 +158,10 @@ class Record:
         """Write the particles for ParaView."""
         if self.folder:
             particles = self.flow.domain.gather(self.flow.particles)
-            kind = kinds_of(self.case, particles)
-            self._write(lambda: self.frames.append(self.flow.time, particles, kind))
+            self._write(lambda: self._append_frame(particles))
+
+    def _append_frame(self, particles):
+        self.frames.append(self.flow.time, particles, kinds_of(self.case, particles))
 
     def add_lost(self, step, lost):
         """Write down this rank's particles that left the tank, before they are taken out.

@@ -234,9 +234,9 @@ def test_pressure_of_dummies_does_not_matter(name):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_pressure_of_walls_and_piston_matters(name, one):
+def test_pressure_of_walls_matters(name):
     position, role, pressure = mixed_cloud()
-    other = np.where(role == one, pressure + 50.0, pressure)
+    other = np.where(role == FACE, pressure + 50.0, pressure)
     here = apply(name, position, pressure, 3, role=role)
     there = apply(name, position, other, 3, role=role)
     assert np.abs(there - here)[role == FLUID].max() > 1.0
