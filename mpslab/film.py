@@ -4,7 +4,6 @@ Each frame of particles becomes a picture of the film, 2-D from the side, 3-D fr
 wave and above. A run that goes on can be filmed as far as it has come.
 """
 
-import argparse
 import os
 import sys
 import time as clock
@@ -18,7 +17,7 @@ from mpslab.progress import LINE_EVERY, make_bar
 from mpslab.results import open_run
 from mpslab.scenes import reel, scene
 from mpslab.scenes.stills import Shot, box_of
-from mpslab.terminal import unbroken
+from mpslab.terminal import Parser, unbroken
 
 BAD_INPUT, FAILED, INTERRUPTED = 2, 3, 130
 FIELDS = {"speed": "velocity", "along": "velocity", "pressure": "pressure", "none": None}
@@ -160,15 +159,8 @@ def _clipped(window, case):
     return left, right
 
 
-class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line."""
-
-    def error(self, message):
-        raise ValueError(f"{message} (see --help)")
-
-
 def _parser():
-    parser = _Parser(
+    parser = Parser(
         prog="python -m mpslab.film",
         description="Make a film of a run, 2-D or 3-D, finished or not.",
         epilog="Example: python -m mpslab.film results --window 0.4 0.7 --from 1.2 --surface",

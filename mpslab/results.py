@@ -246,7 +246,7 @@ class Frame(dict):
 
     @property
     def kind(self):
-        """(n,) int8: number of the kind in `mpslab.particles.KIND_NAMES`."""
+        """(n,) int8: number of the kind in `mpslab.kinds.KIND_NAMES`."""
         return self["kind"]
 
     @property

@@ -1,6 +1,5 @@
 """The command line: ``python -m mpslab.tank``."""
 
-import argparse
 import os
 import shlex
 import signal
@@ -15,22 +14,15 @@ from mpslab.files import FULL, DiskFull
 from mpslab.output import RunFolder
 from mpslab.preflight import check_ranks, preflight
 from mpslab.simulation import Simulation, take
-from mpslab.terminal import unbroken
+from mpslab.terminal import Parser, unbroken
 from mpslab.watch import RunFailed
 
 DEFAULT_CASE = "plunging_breaker"
 BAD_INPUT, FAILED, INTERRUPTED = 2, 3, 130
 
 
-class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line."""
-
-    def error(self, message):
-        raise ValueError(f"{message} (see --help)")
-
-
 def _parser():
-    parser = _Parser(
+    parser = Parser(
         prog="python -m mpslab.tank",
         description="Run a case of the particle wave tank.",
         epilog="Example: python -m mpslab.tank plunging_breaker --set particles.spacing=0.002",

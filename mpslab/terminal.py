@@ -1,8 +1,18 @@
-"""Output that nobody reads any more, as of ``... | head -1``, does not stop the work."""
+"""What the commands share: input that is wrong is told in one line, and output that nobody reads
+any more, as of ``... | head -1``, does not stop the work.
+"""
 
+import argparse
 import os
 import sys
 from contextlib import ExitStack, contextmanager, redirect_stderr, redirect_stdout, suppress
+
+
+class Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line, as a ValueError."""
+
+    def error(self, message):
+        raise ValueError(f"{message} (see --help)")
 
 
 @contextmanager
