@@ -1,6 +1,5 @@
 """The kept results of the runs, as the figures read them."""
 
-import json
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -44,9 +43,13 @@ class Kept:
         self.folder, self.title = Path(folder), title
 
     @cached_property
+    def _run(self):
+        return open_run(self.folder)
+
+    @property
     def case(self):
         """The resolved case, a dict of tables."""
-        return open_run(self.folder).tables
+        return self._run.tables
 
     @property
     def spacing(self):
@@ -63,10 +66,10 @@ class Kept:
         """Width of the tank [m]."""
         return self.case["tank"]["width"]
 
-    @cached_property
+    @property
     def record(self):
         """How the run was made: ranks, machine, commit, particles; a dict."""
-        return json.loads((self.folder / "run.json").read_text(encoding="utf-8"))
+        return self._run.record
 
     @cached_property
     def steps(self):
