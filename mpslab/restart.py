@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, fields
 
-from mpslab import checkpoint, inputs
+from mpslab import checkpoint, inputs, plugins
 from mpslab.cases import load_case, loads
 from mpslab.keys import CaseError, shown, toml_name
 from mpslab.parameters import LISTS, TABLES, Case
@@ -12,11 +12,7 @@ FREE = ("name", "title", "time.end", "scheme.tolerance", "scheme.max_iterations"
 FREE_TABLES = ("parallel", "output")
 
 # What could change but for the files that the run has begun.
-HELD = {
-    "gauge": "gauges.csv has its columns",
-    "probe": "probes.csv has its columns",
-    "output.fields": "the frames of particles.vtkhdf have their fields",
-}
+HELD = {"output.fields": "the frames of particles.vtkhdf have their fields"}
 
 
 @dataclass(frozen=True)
@@ -108,7 +104,9 @@ def _free(key):
 
 def _rule(key, old):
     """What the value of a key must be that cannot change, and why."""
-    why = HELD.get(key) or HELD.get(key.split(".")[0])
+    table = f"{key.split('.')[0]}s"
+    why = f"{table}.csv has its columns" if table in plugins.names("instruments") else ""
+    why = HELD.get(key, why)
     stay = "be absent" if old is None else f"stay {shown(old)}"
     return (
         f"must {stay}, as when the run began" + (f", for {why}" if why else "")

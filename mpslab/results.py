@@ -9,7 +9,6 @@
 
 import json
 import operator
-import re
 import tomllib
 from functools import cached_property
 from pathlib import Path
@@ -25,7 +24,6 @@ from mpslab.tables import read_rows
 WORDS = {"steps": ("dt_limit",), "lost": ("reason",)}  # columns of words, by table
 LISTS = {"decomposition": ("particles", "seconds", "waiting")}  # of an entry for each rank
 KEYS = {heading: key for key, heading in columns.DECOMPOSITION_COLUMNS.items()}
-UNIT = re.compile(r" \[[^\[\]]*\]$")
 
 
 def open_run(folder):
@@ -198,7 +196,7 @@ class Run:
 
 def _name(heading):
     """Name of the field of a column: "time" of "time [s]"."""
-    return KEYS.get(heading) or UNIT.sub("", heading)
+    return KEYS.get(heading) or columns.name_of(heading)
 
 
 def _column(entries, of_words, of_lists):

@@ -7,16 +7,28 @@ from numbers import Real
 
 import numpy as np
 
-from mpslab import checkpoint, diagnostics, geometry, initial, inputs, restart, settling, timestep
+from mpslab import (
+    checkpoint,
+    diagnostics,
+    geometry,
+    initial,
+    inputs,
+    instruments,
+    restart,
+    settling,
+    timestep,
+)
 from mpslab.cases import dumps
 from mpslab.communicator import on_root
 from mpslab.domain import world
+from mpslab.keys import require_choice
 from mpslab.memory import keep_freed
 from mpslab.output import RunFolder
 from mpslab.particles import ParticleSet, no_particles
 from mpslab.piston import Piston, make_paddle
 from mpslab.rebalance import Rebalancer
 from mpslab.record import Record
+from mpslab.schedule import due
 from mpslab.step import advance, make_flow
 from mpslab.watch import RunFailed, check_finite, check_lost, check_step, find_lost
 
@@ -65,7 +77,7 @@ class Simulation:
         self._set_up(flow, out, files)
         self._record.write_case(self._text, files)
         self._record.begin()
-        self._record.read_instruments()
+        self._record.read_all()
         self._record.add_frame()
         self._write_checkpoint()
 
@@ -131,7 +143,7 @@ class Simulation:
         self.outcome, self.reason = "running", None
         self._flow = flow
         keep_freed()
-        self._record = Record(case, flow, folder)
+        self._record = Record(case, flow, folder, instruments.of(case))
         self._rebalancer = Rebalancer(flow.domain, case.parallel.balance)
 
     @property
@@ -160,22 +172,35 @@ class Simulation:
 
         As gauges and probes, the same on all ranks, and not to be written to.
         """
-        return self._record.steps.rows
+        return self.table("steps")
 
     @property
     def last_row(self):
         """The last row of the steps, a dict by the keys of `mpslab.columns.STEP_COLUMNS`."""
-        return self._record.last_row
+        return self._record.instruments["steps"].last
 
     @property
     def gauges(self):
         """Water levels: field "time" [s] and one field [m] for each gauge."""
-        return self._record.gauges.rows
+        return self.table("gauges")
 
     @property
     def probes(self):
         """Readings of the probes: "time" [s], then "NAME pressure" [Pa] and "NAME u" [m/s]."""
-        return self._record.probes.rows
+        return self.table("probes")
+
+    def table(self, name):
+        """What an instrument has read since the start or the restart, a structured array (n,).
+
+        Its fields are the headings of ``NAME.csv`` without their units.
+
+        Raises
+        ------
+        ValueError
+            If the run has no such instrument.
+        """
+        require_choice("table", name, tuple(self._record.series))
+        return self._record.series[name].rows
 
     @property
     def stopwatch(self):
@@ -270,16 +295,17 @@ class Simulation:
         self.dt, limit = timestep.choose(self.case, self.dt, speed)
         report = advance(self._flow, self.dt)
         self.step += 1
+        self._flow.done = {
+            "step": self.step, "before": before, "dt": self.dt, "dt_limit": limit,
+            "iterations": report.iterations, "residual": report.residual,
+        }  # fmt: skip
         self._take_out_lost()
         check_step(self._flow, report, self.dt, self.step)
         check_lost(self._flow, self.lost, self._sides, self.at_start, self.step)
-        seconds = self.domain.from_all(clock.perf_counter() - began)[0]
+        self._flow.done["lost"] = self.lost
+        self._flow.done["seconds"] = self.domain.from_all(clock.perf_counter() - began)[0]
         with self.stopwatch.phase("record"):
-            self._record.add_step(
-                step=self.step, time=self.time, dt=self.dt, dt_limit=limit,
-                iterations=report.iterations, residual=report.residual, lost=self.lost,
-                seconds=seconds, **self._record.measures(before),
-            )  # fmt: skip
+            self._record.read_due(before)
         # Before the checkpoint, for the rows up to its step have to be there after a kill.
         if self.step % self.case.parallel.rebalance_every == 0:
             self._take_stock()
@@ -297,7 +323,8 @@ class Simulation:
     def _take_out_lost(self):
         particles = self.particles
         lost = find_lost(self.case, particles, self._flow.piston.face(self.time))
-        sides = self._record.add_lost(self.step, lost)
+        self._flow.done["leaving"] = lost
+        sides = [row[-1] for row in self._record.read("lost").get("lost", ())]
         self.lost += len(sides)
         self._sides.update(sides)
         if lost:
@@ -306,17 +333,11 @@ class Simulation:
             self._flow.particles = self.domain.keep(particles, keep)
 
     def _write_due(self, before):
-        """Write what fell due in this step; no state is kept, so a restart writes the same."""
+        """Write the frame and the checkpoint that fell due in this step."""
         output = self.case.output
-
-        def due(interval):
-            return interval == 0.0 or int(self.time / interval) > int(before / interval)
-
-        if due(output.gauge_interval):
-            self._record.read_instruments()
-        if due(output.interval):
+        if due(output.interval, before, self.time):
             self._record.add_frame()
-        if due(output.checkpoint):
+        if due(output.checkpoint, before, self.time):
             self._write_checkpoint()
 
     def _state(self):

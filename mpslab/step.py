@@ -37,6 +37,8 @@ class Flow:
     correction : (n, 6) float64 or None
         Matrices of `mpslab.correction` there, where a model needs them.
     time : float [s]
+    done : dict
+        What the loop says of the last step, for the table of steps; empty before the first.
     """
 
     case: object
@@ -53,6 +55,7 @@ class Flow:
     neighbors: NeighborList = field(default_factory=NeighborList)
     correction: np.ndarray | None = None
     time: float = 0.0
+    done: dict = field(default_factory=dict)
 
     @property
     def stopwatch(self):
