@@ -124,6 +124,22 @@ class Record:
         found = ((name, one.interval) for name, one in self.instruments.items())
         return [(name, every) for name, every in found if every is not None]
 
+    def state(self):
+        """What the instruments carry on from step to step, for the checkpoint."""
+        return {
+            f"{name}.{key}": value
+            for name, one in self.instruments.items()
+            for key, value in one.state().items()
+        }
+
+    def restore(self, state):
+        """Give the instruments what they had at the checkpoint."""
+        for name, one in self.instruments.items():
+            mine = {key.removeprefix(f"{name}."): value for key, value in state.items()
+                    if key.startswith(f"{name}.")}  # fmt: skip
+            if mine:
+                one.restore(mine)
+
     def add_phases(self, step, time, laps):
         """Add a row of where the time went, the mean over the ranks.
 

@@ -166,6 +166,13 @@ class Run:
         """
         return self._series("lost", columns.LOST_COLUMNS)
 
+    def table(self, name):
+        """Rows of the table of any instrument, ``NAME.csv``, (n,): "time" [s] or "step" first.
+
+        The fields are its headings without their units; of forces, "NAME fx" [N], in 2-D [N/m].
+        """
+        return self._series(name, ["time"])
+
     @cached_property
     def frames(self):
         """The frames of particles, `Frames`."""

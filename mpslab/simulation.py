@@ -130,6 +130,7 @@ class Simulation:
         self.at_start = state["at_start"]
         self._flow.time = state["time"]
         self._record.begin(self.step)
+        self._record.restore(state)
         self._record.note_resume(state, found.changes, self._text, found.inputs)
         return self
 
@@ -351,6 +352,7 @@ class Simulation:
             "piston_bed": self._flow.piston.bed,
             "case": self._text,
             "inputs": self._files,
+            **self._record.state(),
         }
 
     def _write_checkpoint(self):
