@@ -10,6 +10,8 @@ from time import monotonic
 
 from mpslab import inputs, lock
 from mpslab.columns import DECOMPOSITION_COLUMNS
+from mpslab.communicator import on_root
+from mpslab.domain import world
 from mpslab.files import remove_drafts, replacing
 from mpslab.provenance import environment
 from mpslab.stopwatch import KINDS, PHASES
@@ -319,6 +321,14 @@ class RunFolder:
         for table in self._tables.values():
             table.close()
         self.let_go()
+
+
+def take(make, path):
+    """The `RunFolder` that rank 0 makes, and holds; the other ranks know where it is."""
+    comm = world()
+    folder = on_root(comm, lambda: make(path))
+    path = comm.bcast(folder and folder.path)
+    return folder or RunFolder(path)
 
 
 def _missing(path):

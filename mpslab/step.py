@@ -39,6 +39,8 @@ class Flow:
     time : float [s]
     done : dict
         What the loop says of the last step, for the table of steps; empty before the first.
+    readings : dict of str to float
+        What the gauges read last, by name [m], for what moves by it.
     reaction : mpslab.reaction.Reaction or None
         Adds up what solids give the water, where somebody asks for it.
     """
@@ -58,6 +60,7 @@ class Flow:
     correction: np.ndarray | None = None
     time: float = 0.0
     done: dict = field(default_factory=dict)
+    readings: dict = field(default_factory=dict)
     reaction: object = None
 
     @property

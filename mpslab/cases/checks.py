@@ -55,7 +55,10 @@ def _check_models(case):
                 value = getattr(table, item.name)
                 words = value if isinstance(value, tuple) else (value,)
                 for word in words:
-                    require_choice(f"{name}.{toml_name(item)}", word, models(item.metadata))
+                    if plugins.is_path(word):
+                        plugins.load(item.metadata["family"], word)
+                    else:
+                        require_choice(f"{name}.{toml_name(item)}", word, models(item.metadata))
     scheme = case.scheme
     require(
         scheme.surface == "marked" or scheme.walls == "extrapolated",

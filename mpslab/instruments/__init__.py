@@ -81,7 +81,7 @@ def with_own(case, own):
     for number, one in enumerate(own):
         where = f"instruments[{number}]"
         if not isinstance(one, Instrument):
-            raise ValueError(f"{where} = {shown(repr(one))}: must be an mpslab.Instrument")
+            raise ValueError(f"{where} = {shown(one)}: must be an mpslab.Instrument")
         _check_name(f"{where}.name", getattr(one, "name", None), found)
         _check_columns(f"{where}.columns", getattr(one, "columns", None))
         found[one.name] = one
@@ -91,7 +91,7 @@ def with_own(case, own):
 def _check_name(key, name, taken):
     fits = isinstance(name, str) and name.isprintable() and name.strip() == name != ""
     fits = fits and not set(name) & set(FORBIDDEN)
-    require(fits, key, repr(name), f"the name of a file, without any of {FORBIDDEN}")
+    require(fits, key, name, f"the name of a file, without any of {FORBIDDEN}")
     other = (*taken, *plugins.names("instruments"), "phases", "decomposition")
     require(name not in other, key, name, f"another name than {', '.join(dict.fromkeys(other))}")
 
@@ -100,9 +100,9 @@ def _check_columns(key, columns):
     fits = isinstance(columns, list | tuple) and all(isinstance(c, str) for c in columns)
     fits = fits and len(columns) > 1 and columns[0] in FIRST
     rule = f"a list of headings, the first of them one of {', '.join(FIRST)}"
-    require(fits, key, repr(columns), rule)
+    require(fits, key, columns, rule)
     twice = [name for name, count in Counter(map(name_of, columns)).items() if count > 1]
-    require(not twice, key, repr(columns), "headings that differ in more than their units")
+    require(not twice, key, columns, "headings that differ in more than their units")
 
 
 def check(case):

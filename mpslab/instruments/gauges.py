@@ -26,6 +26,7 @@ class Gauges(Instrument):
         """A row of water levels."""
         reach = REACH * flow.stencil.spacing
         levels = read_near(flow, [g.x for g in self.places], reach, lambda p: self._levels(flow, p))
+        flow.readings.update((g.name, z) for g, z in zip(self.places, levels, strict=True))
         return [(flow.time, *levels)]
 
     def _levels(self, flow, p):
