@@ -12,10 +12,20 @@ A run that wrote files is read from its folder, at any time:
 """
 
 from mpslab.cases import load_case
+from mpslab.instruments import Instrument
 from mpslab.keys import CaseError
+from mpslab.plugins import add as add_model
 from mpslab.results import open_run
 from mpslab.simulation import Simulation
 from mpslab.watch import RunFailed
 
 __version__ = "0.1.0"
-__all__ = ["CaseError", "RunFailed", "Simulation", "load_case", "open_run"]
+__all__ = [
+    "CaseError",
+    "Instrument",
+    "RunFailed",
+    "Simulation",
+    "add_model",
+    "load_case",
+    "open_run",
+]

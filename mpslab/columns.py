@@ -1,5 +1,7 @@
 """Headings of the tables of a run, and the names of the same series in memory."""
 
+import re
+
 from mpslab.stopwatch import COMMUNICATION, PHASES, WAITING
 
 STEP_COLUMNS = {
@@ -37,3 +39,9 @@ PHASE_COLUMNS = (
 )  # fmt: skip
 LOST_COLUMNS = ("step", "time [s]", "gid", "x [m]", "y [m]", "z [m]", "reason")
 PROBE_QUANTITIES = ("pressure [Pa]", "u [m/s]", "v [m/s]", "w [m/s]")
+UNIT = re.compile(r" \[[^\[\]]*\]$")
+
+
+def name_of(heading):
+    """Name of the series of a column: "time" of "time [s]"."""
+    return UNIT.sub("", heading)

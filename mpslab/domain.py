@@ -268,6 +268,11 @@ class Domain:
         """Sum of (n,) values over the particles of all ranks, slab by slab."""
         return self.add(np.bincount(self.slab, values, minlength=self.slabs.count))
 
+    def totals(self, values):
+        """As `total`, of each column of (n, k) values, (k,)."""
+        columns = [np.bincount(self.slab, column, self.slabs.count) for column in values.T]
+        return sum(self.collect(np.column_stack(columns)))
+
     def from_all(self, item):
         """What each rank gives, a list in the order of ranks, the same on all of them."""
         with self.stopwatch.kind(COMMUNICATION):

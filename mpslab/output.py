@@ -9,13 +9,9 @@ from pathlib import Path
 from time import monotonic
 
 from mpslab import inputs, lock
-from mpslab.columns import (
-    DECOMPOSITION_COLUMNS,
-    LOST_COLUMNS,
-    PHASE_COLUMNS,
-    PROBE_QUANTITIES,
-    STEP_COLUMNS,
-)
+from mpslab.columns import DECOMPOSITION_COLUMNS
+from mpslab.communicator import on_root
+from mpslab.domain import world
 from mpslab.files import remove_drafts, replacing
 from mpslab.provenance import environment
 from mpslab.stopwatch import KINDS, PHASES
@@ -210,43 +206,31 @@ class RunFolder:
         """
         if ranks == 1 and not (self.path / "decomposition.csv").exists():
             return
-        self._tables["decomposition"] = CsvTable(
-            self.path / "decomposition.csv", DECOMPOSITION_COLUMNS.values(), last_step
-        )
+        self.open_table("decomposition", DECOMPOSITION_COLUMNS.values(), last_step)
 
     def add_decomposition(self, **entries):
         """Add a row to ``decomposition.csv``; a list has an entry a rank, with blanks between."""
         cells = [entries[key] for key in DECOMPOSITION_COLUMNS]
-        self._tables["decomposition"].append(
-            [" ".join(map(str, c)) if isinstance(c, list) else c for c in cells]
-        )
+        row = [" ".join(map(str, c)) if isinstance(c, list) else c for c in cells]
+        self.add_rows("decomposition", [row])
 
-    def open_tables(self, gauges=(), probes=(), last_step=None, last_time=None):
-        """Open ``steps.csv``, ``phases.csv``, ``gauges.csv``, ``probes.csv`` and ``lost.csv``.
+    def open_table(self, name, columns, last=None):
+        """Open ``NAME.csv``.
 
         Parameters
         ----------
-        gauges, probes : sequence of str
-            Names of the instruments, each a column, or four.
-        last_step : int, optional
-            Step of the checkpoint that the run goes on from: later rows are dropped.
-        last_time : float, optional
-            Its time [s].
+        name : str
+        columns : sequence of str
+            Its headings.
+        last : int or float, optional
+            Step or time [s] of the checkpoint that the run goes on from: later rows are dropped.
         """
-        gauge_columns = [f"{name} [m]" for name in gauges]
-        probe_columns = [f"{name} {quantity}" for name in probes for quantity in PROBE_QUANTITIES]
-        for name, columns, last in (
-            ("steps", STEP_COLUMNS.values(), last_step),
-            ("phases", PHASE_COLUMNS, last_step),
-            ("lost", LOST_COLUMNS, last_step),
-            ("gauges", ["time [s]", *gauge_columns], last_time),
-            ("probes", ["time [s]", *probe_columns], last_time),
-        ):
-            self._tables[name] = CsvTable(self.path / f"{name}.csv", columns, last)
+        self._tables[name] = CsvTable(self.path / f"{name}.csv", columns, last)
 
-    def add_step(self, **entries):
-        """Add a row to ``steps.csv``; the keywords are the keys of `STEP_COLUMNS`."""
-        self._tables["steps"].append([entries[key] for key in STEP_COLUMNS])
+    def add_rows(self, name, rows):
+        """Add rows to ``NAME.csv``, each with an entry for each column."""
+        for row in rows:
+            self._tables[name].append(row)
 
     def add_phases(self, step, time, spent):
         """Add a row to ``phases.csv``: each phase whole, then the parts of it that were not work.
@@ -262,20 +246,7 @@ class RunFolder:
         for phase in PHASES:
             work, communication, waiting = (spent.get((phase, kind), 0.0) for kind in KINDS)
             cells += [work + communication + waiting, communication, waiting]
-        self._tables["phases"].append([step, time, *(round(s, 7) for s in cells)])
-
-    def add_gauges(self, time, elevations):
-        """Add a row to ``gauges.csv``: time [s] and (n_gauges,) water levels [m]."""
-        self._tables["gauges"].append([time, *elevations])
-
-    def add_probes(self, time, values):
-        """Add a row to ``probes.csv``: time [s] and (n_probes, 4) p [Pa], u, v, w [m/s]."""
-        self._tables["probes"].append([time, *(entry for probe in values for entry in probe)])
-
-    def add_lost(self, step, time, gid, position, reason):
-        """Add rows to ``lost.csv``: (n,) gid and (n, 3) position [m] of the particles lost."""
-        for number, place in zip(gid, position, strict=True):
-            self._tables["lost"].append([step, time, number, *place, reason])
+        self.add_rows("phases", [[step, time, *(round(s, 7) for s in cells)]])
 
     def write_case(self, text):
         """Write ``case.toml``: the resolved case as TOML."""
@@ -350,6 +321,14 @@ class RunFolder:
         for table in self._tables.values():
             table.close()
         self.let_go()
+
+
+def take(make, path):
+    """The `RunFolder` that rank 0 makes, and holds; the other ranks know where it is."""
+    comm = world()
+    folder = on_root(comm, lambda: make(path))
+    path = comm.bcast(folder and folder.path)
+    return folder or RunFolder(path)
 
 
 def _missing(path):

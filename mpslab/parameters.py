@@ -250,7 +250,7 @@ class Output:
     )
     checkpoint: float = key("time between checkpoints; 0 for end / 5", 0.0, unit="s", low=0)
     gauge_interval: float = key(
-        "time between readings of gauges and probes; 0 for every step", 0.0, unit="s", low=0
+        "time between readings of gauges, probes and forces; 0 for every step", 0.0, unit="s", low=0
     )
     pictures: tuple = key(
         "times of the pictures; [] to spread them over the run", (), kind="numbers", unit="s", low=0
@@ -285,6 +285,26 @@ class Probe:
         check_table(self)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Force:
+    """Force and moment on a solid, the mean since the row before, in forces.csv."""
+
+    name: str = key("heading of its columns", **NAME)
+    on: str = key(
+        "what it is on: tank, bed, end_wall, piston, or the name of an obstacle or a gate",
+        kind="text",
+    )
+    about: tuple = key(
+        "point [x, y, z] that the moment is taken about; y does not count in 2-D",
+        (0.0, 0.0, 0.0),
+        kind="point",
+        unit="m",
+    )
+
+    def __post_init__(self):
+        check_table(self)
+
+
 # Tables of a case, in the order in which they are written; those of LISTS may come several times.
 TABLES = {
     "tank": Tank,
@@ -297,7 +317,14 @@ TABLES = {
     "parallel": Parallel,
     "output": Output,
 }
-LISTS = {"water": Water, "obstacle": Obstacle, "gate": Gate, "gauge": Gauge, "probe": Probe}
+LISTS = {
+    "water": Water,
+    "obstacle": Obstacle,
+    "gate": Gate,
+    "gauge": Gauge,
+    "probe": Probe,
+    "force": Force,
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -320,6 +347,7 @@ class Case:
     gate: tuple[Gate, ...] = ()
     gauge: tuple[Gauge, ...] = ()
     probe: tuple[Probe, ...] = ()
+    force: tuple[Force, ...] = ()
 
     def __post_init__(self):
         for item in fields(self):

@@ -5,12 +5,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mpslab import balance, breaking, filling, gates, geometry, memory, obstacles, waves
+from mpslab import (
+    balance,
+    breaking,
+    filling,
+    gates,
+    geometry,
+    instruments,
+    memory,
+    obstacles,
+    waves,
+)
 from mpslab import bed as beds
 from mpslab.cases.doubts import warnings
 from mpslab.cases.sizes import sizes
 from mpslab.census import census
-from mpslab.columns import PROBE_QUANTITIES, STEP_COLUMNS
 from mpslab.kinds import KIND_NAMES
 from mpslab.piston import make_paddle
 from mpslab.preflight_text import sections
@@ -190,11 +199,11 @@ def _cost(case, n, size, notes):
 
 
 def _entries(case, size):
-    """Entries of the tables of a run, by name."""
+    """Entries of the tables of a run that grow with it, by name."""
     return {
-        "steps": size.steps * len(STEP_COLUMNS),
-        "gauges": size.readings * (1 + len(case.gauge)),
-        "probes": size.readings * (1 + len(PROBE_QUANTITIES) * len(case.probe)),
+        name: (size.steps if name == "steps" else size.readings) * len(one.columns)
+        for name, one in instruments.of(case).items()
+        if one.interval is not None
     }
 
 

@@ -6,14 +6,13 @@ from functools import cached_property
 
 import numpy as np
 
-from mpslab import checkpoint, diagnostics, gauges
-from mpslab.columns import PROBE_QUANTITIES, STEP_COLUMNS
+from mpslab import checkpoint
+from mpslab.columns import PHASE_COLUMNS, name_of
 from mpslab.journal import journal_of
 from mpslab.kinds import KIND_NAMES, kinds_of
 from mpslab.preflight import preflight
+from mpslab.schedule import due
 from mpslab.series import Series
-
-REACH = 3.0  # spacings: no instrument sees further along the tank
 
 
 class Record:
@@ -27,16 +26,23 @@ class Record:
     flow : mpslab.step.Flow
     folder : mpslab.output.RunFolder or None
         None keeps everything in memory.
+    instruments : dict of str to mpslab.instruments.Instrument
+
+    Attributes
+    ----------
+    series : dict of str to Series
+        What each instrument has read since the start or the restart.
     """
 
-    def __init__(self, case, flow, folder):
+    def __init__(self, case, flow, folder, instruments):
         self.case, self.flow, self.folder = case, flow, folder
-        quantities = [quantity.split(" ")[0] for quantity in PROBE_QUANTITIES]
-        self.steps = Series(STEP_COLUMNS, words=["dt_limit"])
-        self.gauges = Series(["time", *(g.name for g in case.gauge)])
-        self.probes = Series(["time", *(f"{p.name} {q}" for p in case.probe for q in quantities)])
-        self.last_row, self.counts = {}, {}
-        self.frames = None
+        self.instruments = instruments
+        self.series = {
+            name: Series([name_of(heading) for heading in one.columns],
+                         {name_of(heading): most for heading, most in one.words.items()})
+            for name, one in instruments.items()
+        }  # fmt: skip
+        self.counts, self.frames = {}, None
 
     def _write(self, act):
         """Call `act` on rank 0, if the run has a folder, which is held from then on."""
@@ -50,14 +56,18 @@ class Record:
 
     def begin(self, step=None):
         """Open the tables; after a restart, drop what is later than its step and time."""
+        for one in self.instruments.values():
+            one.begin(self.flow)
         self._write(lambda: self._open(step))
 
     def _open(self, step):
         from mpslab import vtkhdf
 
         time = None if step is None else self.flow.time
-        names = [g.name for g in self.case.gauge], [p.name for p in self.case.probe]
-        self.folder.open_tables(*names, last_step=step, last_time=time)
+        for name, one in self.instruments.items():
+            last = step if one.columns[0] == "step" else time
+            self.folder.open_table(name, one.columns, last)
+        self.folder.open_table("phases", PHASE_COLUMNS, step)
         self.folder.open_decomposition(step, self.flow.domain.size)
         if step is not None:
             self._cut_frames(time)
@@ -89,11 +99,46 @@ class Record:
             self.folder.write_case(text) if changes else None,
         ])  # fmt: skip
 
-    def add_step(self, **entries):
-        """Add a row; the keywords are the keys of `mpslab.columns.STEP_COLUMNS`."""
-        self.last_row = entries
-        self.steps.add(tuple(entries[key] for key in STEP_COLUMNS))
-        self._write(lambda: self.folder.add_step(**entries))
+    def read(self, *names):
+        """Read some instruments, and write down what they give: rows by name."""
+        found = {name: self.instruments[name].read(self.flow) for name in names}
+        found = {name: rows for name, rows in found.items() if rows}
+        for name, rows in found.items():
+            for row in rows:
+                self.series[name].add(row)
+        if found:
+            self._write(lambda: [self.folder.add_rows(*item) for item in found.items()])
+        return found
+
+    def read_due(self, before):
+        """Read the instruments that fall due in the step since `before` [s]."""
+        time = self.flow.time
+        self.read(*(name for name, every in self._schedule() if due(every, before, time)))
+
+    def read_all(self):
+        """Read all instruments that have a schedule."""
+        self.read(*(name for name, _ in self._schedule()))
+
+    def _schedule(self):
+        """Name and interval of the instruments that are not read on request alone."""
+        found = ((name, one.interval) for name, one in self.instruments.items())
+        return [(name, every) for name, every in found if every is not None]
+
+    def state(self):
+        """What the instruments carry on from step to step, for the checkpoint."""
+        return {
+            f"{name}.{key}": value
+            for name, one in self.instruments.items()
+            for key, value in one.state().items()
+        }
+
+    def restore(self, state):
+        """Give the instruments what they had at the checkpoint."""
+        for name, one in self.instruments.items():
+            mine = {key.removeprefix(f"{name}."): value for key, value in state.items()
+                    if key.startswith(f"{name}.")}  # fmt: skip
+            if mine:
+                one.restore(mine)
 
     def add_phases(self, step, time, laps):
         """Add a row of where the time went, the mean over the ranks.
@@ -106,7 +151,7 @@ class Record:
             `mpslab.stopwatch.Stopwatch.lap` of each rank since the last row.
         """
         # After a restart the first row counts the steps since then.
-        steps = min(len(self.steps), self.case.parallel.rebalance_every)
+        steps = min(len(self.series["steps"]), self.case.parallel.rebalance_every)
         places = {at for lap in laps for at in lap}
         spent = {at: sum(lap.get(at, 0.0) for lap in laps) / len(laps) / steps for at in places}
         self._write(lambda: self.folder.add_phases(step, time, spent))
@@ -114,45 +159,6 @@ class Record:
     def add_decomposition(self, **entries):
         """Add a row; the keywords are the keys of `mpslab.columns.DECOMPOSITION_COLUMNS`."""
         self._write(lambda: self.folder.add_decomposition(**entries))
-
-    def read_instruments(self):
-        """Read all gauges and probes at the present time; rank 0 tells the others."""
-        particles = self.flow.domain.gather(self._near_instruments())
-        read = None if particles is None else self._read(particles)
-        levels, values = self.flow.domain.from_all(read)[0]
-        time = self.flow.time
-        self.gauges.add((time, *levels))
-        self.probes.add((time, *(v for probe in values for v in probe)))
-        self._write(lambda: self._write_instruments(time, levels, values))
-
-    def _near_instruments(self):
-        """This rank's particles within the reach of an instrument."""
-        particles, domain = self.flow.particles, self.flow.domain
-        if domain.size == 1:
-            return particles
-        near = np.zeros(len(particles), bool)
-        for instrument in (*self.case.gauge, *self.case.probe):
-            far = np.abs(particles.position[:, 0] - instrument.x)
-            near |= far < REACH * self.flow.stencil.spacing
-        return particles.take(near)
-
-    def _read(self, p):
-        """Water level of each gauge, and pressure and velocity of each probe."""
-        spacing, width = self.flow.stencil.spacing, self.flow.stencil.width
-        levels = [
-            gauges.surface_elevation(p.position, p.role, spacing, g.x, g.y, width)
-            for g in self.case.gauge
-        ]
-        values = [
-            gauges.probe(p.position, p.velocity, p.pressure, p.role, spacing,
-                         (q.x, q.y, q.z), width).tolist()
-            for q in self.case.probe
-        ]  # fmt: skip
-        return levels, values
-
-    def _write_instruments(self, time, levels, values):
-        self.folder.add_gauges(time, levels)
-        self.folder.add_probes(time, values)
 
     def add_frame(self):
         """Write the particles for ParaView."""
@@ -162,22 +168,6 @@ class Record:
 
     def _append_frame(self, particles):
         self.frames.append(self.flow.time, particles, kinds_of(self.case, particles))
-
-    def add_lost(self, step, lost):
-        """Write down this rank's particles that left the tank, before they are taken out.
-
-        Returns
-        -------
-        list of str
-            The sides by which they left, one entry for each on all ranks.
-        """
-        p, time = self.flow.particles, self.flow.time
-        mine = [(int(p.gid[r]), p.position[r].tolist(), x.reason) for x in lost for r in x.rows]
-        found = sorted(one for rank in self.flow.domain.from_all(mine) for one in rank)
-        if found:
-            self._write(lambda: [self.folder.add_lost(step, time, [gid], [place], reason)
-                                 for gid, place, reason in found])  # fmt: skip
-        return [reason for _, _, reason in found]
 
     def write_checkpoint(self, state, name=None):
         """Write the state of the run, to `checkpoint.h5` unless another name is given."""
@@ -229,20 +219,3 @@ class Record:
     def flush(self):
         """Bring the tables up to date on the disk."""
         self._write(lambda: self.folder.flush())
-
-    def measures(self, before):
-        """What the water holds now and what the piston did since `before` [s], for a row."""
-        p, stencil, fluid = self.flow.particles, self.flow.stencil, self.case.fluid
-        total = self.flow.domain.total
-        force = diagnostics.piston_force(p, stencil, total)
-        stroke = self.flow.piston.face(self.flow.time) - self.flow.piston.face(before)
-        return {
-            "max_speed": max(self.flow.domain.from_all(diagnostics.max_speed(p))),
-            "kinetic_energy": diagnostics.kinetic_energy(p, stencil, fluid.density, total),
-            "potential_energy": diagnostics.potential_energy(
-                p, stencil, fluid.density, fluid.gravity, total
-            ),
-            "volume": diagnostics.volume(p, stencil, total),
-            "piston_force": force,
-            "piston_work": force * stroke,
-        }

@@ -1,8 +1,9 @@
 """Going on with a run: the case that its checkpoint belongs to, and what of it may change."""
 
+import json
 from dataclasses import dataclass, fields
 
-from mpslab import checkpoint, inputs
+from mpslab import checkpoint, inputs, plugins
 from mpslab.cases import load_case, loads
 from mpslab.keys import CaseError, shown, toml_name
 from mpslab.parameters import LISTS, TABLES, Case
@@ -12,11 +13,7 @@ FREE = ("name", "title", "time.end", "scheme.tolerance", "scheme.max_iterations"
 FREE_TABLES = ("parallel", "output")
 
 # What could change but for the files that the run has begun.
-HELD = {
-    "gauge": "gauges.csv has its columns",
-    "probe": "probes.csv has its columns",
-    "output.fields": "the frames of particles.vtkhdf have their fields",
-}
+HELD = {"output.fields": "the frames of particles.vtkhdf have their fields"}
 
 
 @dataclass(frozen=True)
@@ -39,7 +36,13 @@ class Restart:
     changes: dict
 
 
-def look(folder, overrides=None):
+def outside(case, instruments):
+    """What a run has from outside of mpslab, models and instruments, as text for the checkpoint."""
+    names = [one.name for one in instruments]
+    return json.dumps({"models": plugins.added(case), "instruments": sorted(names)})
+
+
+def look(folder, overrides=None, instruments=()):
     """Find what a run goes on with; writes nothing.
 
     Parameters
@@ -47,6 +50,8 @@ def look(folder, overrides=None):
     folder : mpslab.output.RunFolder
     overrides : dict, optional
         Values that replace those of ``case.toml``, by key, as for `mpslab.load_case`.
+    instruments : sequence of mpslab.instruments.Instrument
+        Those of the user.
 
     Returns
     -------
@@ -55,8 +60,9 @@ def look(folder, overrides=None):
     Raises
     ------
     ValueError
-        If the checkpoint is damaged or does not hold its case, an input file is not what it was, or
-        the case differs from that of the checkpoint in what cannot change.
+        If the checkpoint is damaged or does not hold its case, an input file is not what it was,
+        the case differs from that of the checkpoint in what cannot change, or what the run has of
+        the user's own is not there.
     """
     state = checkpoint.read_state(folder.checkpoint)
     if "case" not in state:
@@ -64,6 +70,7 @@ def look(folder, overrides=None):
             f"--resume {folder.path}: the checkpoint is of an earlier mpslab and does not hold the "
             "case that it belongs to; must be one that does: run the case anew"
         )
+    _check_outside(folder.path, json.loads(state.get("outside", "{}")), instruments)
     files = inputs.from_text(state["inputs"])
     inputs.check(files, folder.path)
     case = load_case(folder.case, overrides)
@@ -79,6 +86,23 @@ def look(folder, overrides=None):
             f"{state['time']:g} s, the time that the run has reached"
         )
     return Restart(case, state, files, changes)
+
+
+def _check_outside(path, had, instruments):
+    """Raise CaseError unless the models and instruments of the user are there again."""
+    for family, name in had.get("models", []):
+        if not plugins.has(family, name):
+            raise CaseError(
+                f"--resume {path}: {plugins.KEYS[family]} = {shown(name)} is a model from outside "
+                f"of mpslab: must be given again, mpslab.add_model({shown(family)}, "
+                f"{shown(name)}, ...), before the run goes on"
+            )
+    names, given = had.get("instruments", []), sorted(one.name for one in instruments)
+    if names != given:
+        raise CaseError(
+            f"--resume {path}: instruments = {shown(given)}: must be those that the run began "
+            f"with, {shown(names)}, as Simulation.resume(folder, instruments=[...]) takes them"
+        )
 
 
 def differences(old, new):
@@ -108,7 +132,9 @@ def _free(key):
 
 def _rule(key, old):
     """What the value of a key must be that cannot change, and why."""
-    why = HELD.get(key) or HELD.get(key.split(".")[0])
+    table = f"{key.split('.')[0]}s"
+    why = f"{table}.csv has its columns" if table in plugins.names("instruments") else ""
+    why = HELD.get(key, why)
     stay = "be absent" if old is None else f"stay {shown(old)}"
     return (
         f"must {stay}, as when the run began" + (f", for {why}" if why else "")

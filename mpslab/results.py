@@ -9,7 +9,6 @@
 
 import json
 import operator
-import re
 import tomllib
 from functools import cached_property
 from pathlib import Path
@@ -25,7 +24,6 @@ from mpslab.tables import read_rows
 WORDS = {"steps": ("dt_limit",), "lost": ("reason",)}  # columns of words, by table
 LISTS = {"decomposition": ("particles", "seconds", "waiting")}  # of an entry for each rank
 KEYS = {heading: key for key, heading in columns.DECOMPOSITION_COLUMNS.items()}
-UNIT = re.compile(r" \[[^\[\]]*\]$")
 
 
 def open_run(folder):
@@ -168,6 +166,13 @@ class Run:
         """
         return self._series("lost", columns.LOST_COLUMNS)
 
+    def table(self, name):
+        """Rows of the table of any instrument, ``NAME.csv``, (n,): "time" [s] or "step" first.
+
+        The fields are its headings without their units; of forces, "NAME fx" [N], in 2-D [N/m].
+        """
+        return self._series(name, ["time"])
+
     @cached_property
     def frames(self):
         """The frames of particles, `Frames`."""
@@ -198,7 +203,7 @@ class Run:
 
 def _name(heading):
     """Name of the field of a column: "time" of "time [s]"."""
-    return KEYS.get(heading) or UNIT.sub("", heading)
+    return KEYS.get(heading) or columns.name_of(heading)
 
 
 def _column(entries, of_words, of_lists):

@@ -10,12 +10,13 @@ class Series:
     ----------
     names : sequence of str
         Of the columns, all of them numbers but those in `words`.
-    words : sequence of str, optional
-        Names of columns of words of 16 letters at most.
+    words : dict of str to int, optional
+        Columns of words, and how many letters these have at most.
     """
 
-    def __init__(self, names, words=()):
-        kinds = ["U16" if name in words else float for name in names]
+    def __init__(self, names, words=None):
+        letters = words or {}
+        kinds = [f"U{letters[name]}" if name in letters else float for name in names]
         self._rows = np.zeros(16, dtype=list(zip(names, kinds, strict=True)))
         self._count = 0
 

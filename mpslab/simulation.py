@@ -7,16 +7,29 @@ from numbers import Real
 
 import numpy as np
 
-from mpslab import checkpoint, diagnostics, geometry, initial, inputs, restart, settling, timestep
+from mpslab import (
+    checkpoint,
+    diagnostics,
+    geometry,
+    initial,
+    inputs,
+    restart,
+    settling,
+    timestep,
+)
+from mpslab.actions import Actions
 from mpslab.cases import dumps
 from mpslab.communicator import on_root
 from mpslab.domain import world
+from mpslab.instruments import with_own
+from mpslab.keys import require_choice
 from mpslab.memory import keep_freed
-from mpslab.output import RunFolder
+from mpslab.output import RunFolder, take
 from mpslab.particles import ParticleSet, no_particles
 from mpslab.piston import Piston, make_paddle
 from mpslab.rebalance import Rebalancer
 from mpslab.record import Record
+from mpslab.schedule import due
 from mpslab.step import advance, make_flow
 from mpslab.watch import RunFailed, check_finite, check_lost, check_step, find_lost
 
@@ -34,6 +47,8 @@ class Simulation:
         New or empty folder for the files of the run, or one that `take` gave; without it
         everything stays in memory. No other run can have the folder until this one has ended, or
         is forgotten.
+    instruments : sequence of mpslab.Instrument, optional
+        What it reads besides the instruments of the case (docs/python.md).
 
     Attributes
     ----------
@@ -52,7 +67,8 @@ class Simulation:
     >>> run.gauges["time"], run.particles.position
     """
 
-    def __init__(self, case, out=None):
+    def __init__(self, case, out=None, instruments=()):
+        reading = with_own(case, instruments)
         if not (out is None or isinstance(out, RunFolder)):
             out = take(RunFolder.create, out)
         try:
@@ -62,10 +78,10 @@ class Simulation:
             if out is not None:
                 out.abandon()
             raise
-        self._set_up(flow, out, files)
+        self._set_up(flow, out, files, reading, instruments)
         self._record.write_case(self._text, files)
         self._record.begin()
-        self._record.read_instruments()
+        self._record.read_all()
         self._record.add_frame()
         self._write_checkpoint()
 
@@ -80,7 +96,7 @@ class Simulation:
         return flow
 
     @classmethod
-    def resume(cls, folder, changes=None):
+    def resume(cls, folder, changes=None, instruments=()):
         """Go on with the run in a folder from its last checkpoint.
 
         Parameters
@@ -89,39 +105,43 @@ class Simulation:
         changes : dict, optional
             Values that replace those of the case, by key: {"time.end": 3.0}. What may change is
             told in `mpslab.restart`.
+        instruments : sequence of mpslab.Instrument, optional
+            Those that the run began with.
 
         Raises
         ------
         ValueError
             If the folder holds no run, or another run has it, its checkpoint is damaged, an input
-            file is not what it was, or the case differs from that of the checkpoint in what cannot
-            change.
+            file is not what it was, the case differs from that of the checkpoint in what cannot
+            change, or an instrument or a model of the user's own is not there again.
         """
         folder = take(RunFolder.reopen, folder)
         try:
-            return cls._resumed(folder, changes)
+            return cls._resumed(folder, changes, instruments)
         except BaseException:
             folder.let_go()
             raise
 
     @classmethod
-    def _resumed(cls, folder, changes):
-        found = restart.look(folder, changes)
+    def _resumed(cls, folder, changes, instruments):
+        found = restart.look(folder, changes, instruments)
         case, state = found.case, found.state
+        reading = with_own(case, instruments)
         flow = _flow(
             case, make_paddle(case), lambda: ParticleSet(**checkpoint.read(folder.checkpoint)[0])
         )
         flow.piston.rest, flow.piston.bed = state["piston_rest"], state["piston_bed"]
         self = cls.__new__(cls)
-        self._set_up(flow, folder, found.inputs)
+        self._set_up(flow, folder, found.inputs, reading, instruments)
         self.step, self.dt, self.lost = state["step"], state["dt"], state["lost"]
         self.at_start = state["at_start"]
         self._flow.time = state["time"]
         self._record.begin(self.step)
+        self._record.restore(state)
         self._record.note_resume(state, found.changes, self._text, found.inputs)
         return self
 
-    def _set_up(self, flow, folder, files):
+    def _set_up(self, flow, folder, files, reading, own):
         case = inputs.pointed(flow.case, files, folder.path) if folder else flow.case
         self.case = flow.case = case
         self._files = inputs.to_text(files)
@@ -131,7 +151,8 @@ class Simulation:
         self.outcome, self.reason = "running", None
         self._flow = flow
         keep_freed()
-        self._record = Record(case, flow, folder)
+        self._record = Record(case, flow, folder, reading)
+        self._outside, self._actions = restart.outside(case, own), Actions()
         self._rebalancer = Rebalancer(flow.domain, case.parallel.balance)
 
     @property
@@ -160,27 +181,45 @@ class Simulation:
 
         As gauges and probes, the same on all ranks, and not to be written to.
         """
-        return self._record.steps.rows
+        return self.table("steps")
 
     @property
     def last_row(self):
         """The last row of the steps, a dict by the keys of `mpslab.columns.STEP_COLUMNS`."""
-        return self._record.last_row
+        return self._record.instruments["steps"].last
 
     @property
     def gauges(self):
         """Water levels: field "time" [s] and one field [m] for each gauge."""
-        return self._record.gauges.rows
+        return self.table("gauges")
 
     @property
     def probes(self):
         """Readings of the probes: "time" [s], then "NAME pressure" [Pa] and "NAME u" [m/s]."""
-        return self._record.probes.rows
+        return self.table("probes")
+
+    def table(self, name):
+        """What an instrument has read since the start or the restart, a structured array (n,).
+
+        Its fields are the headings of ``NAME.csv`` without their units. ValueError if there is none
+        of this name.
+        """
+        require_choice("table", name, tuple(self._record.series))
+        return self._record.series[name].rows
 
     @property
     def stopwatch(self):
         """Where the time of the steps went on this rank, a `mpslab.stopwatch.Stopwatch`."""
         return self._flow.stopwatch
+
+    def every(self, interval, action):
+        """Have `run` call `action(simulation)` every so often [s], 0 for after each step.
+
+        On all ranks, when what is due in the step has been written: what it changes is not in the
+        checkpoint of this step. A run that is resumed has to be told again. Returns the simulation.
+        """
+        self._actions.add(interval, action)
+        return self
 
     def run(self, until=None, progress=None):
         """Run to a time; the last step may end a little later, for no step is cut short.
@@ -204,8 +243,9 @@ class Simulation:
         ValueError
             If ``until`` is no such time, or another run has the folder.
 
-        Whatever else is raised, by ``progress`` or by Ctrl-C, ends the run: ``run.json`` says how,
-        and the checkpoint is that of the present state, or of the last one if a step was in hand.
+        Whatever else is raised, by ``progress``, an action or Ctrl-C, ends the run: ``run.json``
+        says how, and the checkpoint is that of the present state, or of the last one if a step was
+        in hand.
         """
         until = self.case.time.end if until is None else self._checked(until)
         self._record.write_run("running")
@@ -238,8 +278,10 @@ class Simulation:
         """Run, and write down the end; returns what `progress` raised on this rank, if anything."""
         raised, stop = None, self._stop()
         while self.time < until and not stop:
+            before = self.time
             self.advance()
             try:
+                self._actions.do(self, before)
                 if progress:
                     progress(self)
             except BaseException as error:
@@ -270,16 +312,17 @@ class Simulation:
         self.dt, limit = timestep.choose(self.case, self.dt, speed)
         report = advance(self._flow, self.dt)
         self.step += 1
+        self._flow.done = {
+            "step": self.step, "before": before, "dt": self.dt, "dt_limit": limit,
+            "iterations": report.iterations, "residual": report.residual,
+        }  # fmt: skip
         self._take_out_lost()
         check_step(self._flow, report, self.dt, self.step)
         check_lost(self._flow, self.lost, self._sides, self.at_start, self.step)
-        seconds = self.domain.from_all(clock.perf_counter() - began)[0]
+        self._flow.done["lost"] = self.lost
+        self._flow.done["seconds"] = self.domain.from_all(clock.perf_counter() - began)[0]
         with self.stopwatch.phase("record"):
-            self._record.add_step(
-                step=self.step, time=self.time, dt=self.dt, dt_limit=limit,
-                iterations=report.iterations, residual=report.residual, lost=self.lost,
-                seconds=seconds, **self._record.measures(before),
-            )  # fmt: skip
+            self._record.read_due(before)
         # Before the checkpoint, for the rows up to its step have to be there after a kill.
         if self.step % self.case.parallel.rebalance_every == 0:
             self._take_stock()
@@ -297,7 +340,8 @@ class Simulation:
     def _take_out_lost(self):
         particles = self.particles
         lost = find_lost(self.case, particles, self._flow.piston.face(self.time))
-        sides = self._record.add_lost(self.step, lost)
+        self._flow.done["leaving"] = lost
+        sides = [row[-1] for row in self._record.read("lost").get("lost", ())]
         self.lost += len(sides)
         self._sides.update(sides)
         if lost:
@@ -306,17 +350,11 @@ class Simulation:
             self._flow.particles = self.domain.keep(particles, keep)
 
     def _write_due(self, before):
-        """Write what fell due in this step; no state is kept, so a restart writes the same."""
+        """Write the frame and the checkpoint that fell due in this step."""
         output = self.case.output
-
-        def due(interval):
-            return interval == 0.0 or int(self.time / interval) > int(before / interval)
-
-        if due(output.gauge_interval):
-            self._record.read_instruments()
-        if due(output.interval):
+        if due(output.interval, before, self.time):
             self._record.add_frame()
-        if due(output.checkpoint):
+        if due(output.checkpoint, before, self.time):
             self._write_checkpoint()
 
     def _state(self):
@@ -330,6 +368,8 @@ class Simulation:
             "piston_bed": self._flow.piston.bed,
             "case": self._text,
             "inputs": self._files,
+            "outside": self._outside,
+            **self._record.state(),
         }
 
     def _write_checkpoint(self):
@@ -358,11 +398,3 @@ def _ending(error):
     """Outcome and reason of a run that an exception ends."""
     outcome = "failed" if isinstance(error, Exception) else "interrupted"
     return outcome, " ".join(f"{type(error).__name__} {error}".split())
-
-
-def take(make, path):
-    """The `RunFolder` that rank 0 makes, and holds; the other ranks know where it is."""
-    comm = world()
-    folder = on_root(comm, lambda: make(path))
-    path = comm.bcast(folder and folder.path)
-    return folder or RunFolder(path)

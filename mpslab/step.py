@@ -37,6 +37,12 @@ class Flow:
     correction : (n, 6) float64 or None
         Matrices of `mpslab.correction` there, where a model needs them.
     time : float [s]
+    done : dict
+        What the loop says of the last step, for the table of steps; empty before the first.
+    readings : dict of str to float
+        What the gauges read last, by name [m], for what moves by it.
+    reaction : mpslab.reaction.Reaction or None
+        Adds up what solids give the water, where somebody asks for it.
     """
 
     case: object
@@ -53,6 +59,9 @@ class Flow:
     neighbors: NeighborList = field(default_factory=NeighborList)
     correction: np.ndarray | None = None
     time: float = 0.0
+    done: dict = field(default_factory=dict)
+    readings: dict = field(default_factory=dict)
+    reaction: object = None
 
     @property
     def stopwatch(self):
@@ -164,9 +173,13 @@ def advance(flow, dt):
     _predict(flow, dt)
     with watch.phase("ghosts"):
         flow.particles, (start, before) = domain.share_out(flow.particles, start, before)
-    particles = flow.particles
+    particles, reaction = flow.particles, flow.reaction
+    if reaction:
+        reaction.begin(particles, before)
     with watch.phase("neighbours"):
         find_neighbors(flow)
+        if reaction:
+            reaction.find(particles, flow.neighbors)
     with watch.phase("operators"):
         if flow.needs_correction:
             flow.correction = correction.matrices(particles, flow.neighbors, flow.stencil)
@@ -180,6 +193,8 @@ def advance(flow, dt):
         report = _solve(flow, system, rows, pull)
     with watch.phase("operators"):
         _correct(flow, start, dt)
+        if reaction:
+            reaction.end(flow, dt)
     flow.particles = domain.without_ghosts(particles)
     flow.time += dt
     return report
@@ -220,10 +235,17 @@ def _add_viscosity(flow, dt):
     fluid, scheme = flow.case.fluid, flow.case.scheme
     if fluid.viscosity == scheme.smagorinsky == 0.0:
         return
-    flow.particles.velocity += dt * friction.acceleration(
-        flow.particles, flow.neighbors, (flow.stencil, flow.laplacian_stencil), flow.correction,
-        fluid, scheme, flow.domain.refresh,
-    )  # fmt: skip
+    particles, stencil = flow.particles, flow.laplacian_stencil
+    eddy = friction.eddies(
+        particles, flow.neighbors, flow.stencil, flow.correction, scheme, flow.domain.refresh
+    )
+
+    def change(pairs):
+        return dt * friction.acceleration(particles, pairs, stencil, eddy, fluid, scheme)
+
+    if flow.reaction:
+        flow.reaction.add(change)
+    particles.velocity += change(flow.neighbors)
 
 
 def find_surface(flow):
@@ -288,15 +310,9 @@ def _solve(flow, system, rows, pull):
 
 def _correct(flow, start, dt):
     """u = u* - (dt/rho) grad p and r = start + u dt, then keep the particles in order."""
-    particles, neighbors = flow.particles, flow.neighbors
+    particles = flow.particles
     before = particles.position.copy()
-    role = walls.with_pressure(particles) if flow.extrapolates else particles.role
-    change = np.zeros_like(particles.velocity)
-    flow.gradient.gradient(
-        particles.position, particles.pressure, role, neighbors.indptr, neighbors.indices,
-        flow.stencil, flow.correction, change,
-    )  # fmt: skip
-    particles.velocity -= (dt / flow.case.fluid.density) * change
+    _press(flow, dt)
     moved = start + dt * particles.velocity
     np.copyto(particles.position, moved, where=on_axes(particles.fluid))
     if flow.case.scheme.projection == "start":
@@ -306,12 +322,46 @@ def _correct(flow, start, dt):
         particles.position[:, 1] %= flow.stencil.width
 
 
+def _press(flow, dt):
+    """u = u* - (dt/rho) grad p."""
+    particles, stencil = flow.particles, flow.stencil
+    role = walls.with_pressure(particles) if flow.extrapolates else particles.role
+    gradient, pressure = flow.gradient.gradient, particles.pressure
+
+    def change(pairs):
+        out = np.zeros_like(particles.velocity)
+        gradient(particles.position, pressure, role, pairs.indptr, pairs.indices, stencil,
+                 flow.correction, out)  # fmt: skip
+        return (-dt / flow.case.fluid.density) * out
+
+    by_all = change(flow.neighbors)
+    if flow.reaction:
+        if hasattr(flow.gradient, "as_pairs"):
+            gradient, pressure = flow.gradient.as_pairs(
+                particles.position, pressure, role, flow.neighbors.indptr,
+                flow.neighbors.indices, stencil,
+            )  # fmt: skip
+        flow.reaction.add(change)
+    particles.velocity += by_all
+
+
 def _stabilise(flow, stage, before, dt):
     particles, models = flow.particles, [m for m in flow.stabilisers if stage == m.STAGE]
     for model in models:
         flow.domain.refresh(particles.position, particles.velocity)
-        model.stabilise(
-            particles, before, flow.neighbors, flow.stencil, flow.correction, dt, flow.case.scheme
-        )
+        _part(flow, model, before, dt)
     if models and stage == "predicted":
         flow.domain.refresh(particles.position, particles.velocity)
+
+
+def _part(flow, model, before, dt):
+    """Apply a stabiliser, pass by pass."""
+    one_pass = getattr(model, "one_pass", model.stabilise)
+
+    def act(particles, pairs):
+        one_pass(particles, before, pairs, flow.stencil, flow.correction, dt, flow.case.scheme)
+
+    for _ in range(getattr(model, "PASSES", 1)):
+        if flow.reaction:
+            flow.reaction.stabilise(act, flow.particles)
+        act(flow.particles, flow.neighbors)

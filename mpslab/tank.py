@@ -11,9 +11,9 @@ from mpslab import cases, catalogue, launch, restart
 from mpslab.communicator import all_here
 from mpslab.domain import launched, world
 from mpslab.files import FULL, DiskFull
-from mpslab.output import RunFolder
+from mpslab.output import RunFolder, take
 from mpslab.preflight import check_ranks, preflight
-from mpslab.simulation import Simulation, take
+from mpslab.simulation import Simulation
 from mpslab.terminal import Parser, unbroken
 from mpslab.watch import RunFailed
 

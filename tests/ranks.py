@@ -141,7 +141,8 @@ def series(changes):
     from mpslab.simulation import Simulation
 
     run = Simulation(make_case(changes)).run()
-    mine = {name: getattr(run, name).tolist() for name in ("steps", "gauges", "probes")}
+    names = ("steps", "gauges", "probes", *(["forces"] if run.case.force else []))
+    mine = {name: run.table(name).tolist() for name in names}
     return run.domain.from_all(mine)
 
 

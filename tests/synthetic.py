@@ -1,6 +1,7 @@
 """A run folder without a run: waves that were drawn, not computed."""
 
 import numpy as np
+from tanks import add_step, open_tables
 
 from mpslab.kinds import PISTON as PISTON_FACE
 from mpslab.output import RunFolder
@@ -121,13 +122,15 @@ def write_run(path, spacing=0.004, frames=26, breaks=True, pictures=(), width=0.
 
 def _write_tables(folder):
     rng = np.random.default_rng(0)
-    folder.open_tables(["g1", "g2"], ["p1"])
+    open_tables(folder, ["g1", "g2"], ["p1"])
     for step in range(1, 1001):
         time = 1.25e-3 * step
         eta = 0.01 * np.sin(8 * time) * min(time, 1.0)
-        folder.add_gauges(time, [DEPTH + eta, DEPTH - eta if time < 1 else np.nan])
-        folder.add_probes(time, [(390 + 9810 * eta + 10 * rng.normal(), eta, 0.0, -eta)])
-        folder.add_step(
+        folder.add_rows("gauges", [(time, DEPTH + eta, DEPTH - eta if time < 1 else np.nan)])
+        pressure = 390 + 9810 * eta + 10 * rng.normal()
+        folder.add_rows("probes", [(time, pressure, eta, 0.0, -eta)])
+        add_step(
+            folder,
             step=step,
             time=time,
             dt=1.25e-3 * min(1.0, 1.1**step / 100) * (0.8 if time > 0.8 else 1.0),

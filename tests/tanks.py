@@ -6,8 +6,9 @@ from types import SimpleNamespace
 import numpy as np
 from scipy.spatial import cKDTree
 
-from mpslab import correction, geometry
+from mpslab import correction, geometry, instruments
 from mpslab.cases import from_tables
+from mpslab.columns import PHASE_COLUMNS, STEP_COLUMNS
 from mpslab.kernels import density
 from mpslab.neighbors import NeighborList
 from mpslab.particles import make_particles
@@ -131,3 +132,18 @@ def csv_rows(path, without=("seconds",)):
     """Rows of a table but for some columns, a list of dict."""
     with path.open(newline="", encoding="utf-8") as file:
         return [{k: v for k, v in r.items() if k not in without} for r in csv.DictReader(file)]
+
+
+def open_tables(folder, gauges=(), probes=(), step=None, time=None):
+    """Open the tables of a run folder, cut at a step and time, for gauges and probes by name."""
+    place = {"x": 0.02, "z": 0.01}
+    case = make_case({"gauge": [{"name": name, "x": 0.02} for name in gauges],
+                      "probe": [{"name": name, **place} for name in probes]})  # fmt: skip
+    for name, one in instruments.of(case).items():
+        folder.open_table(name, one.columns, step if one.columns[0] == "step" else time)
+    folder.open_table("phases", PHASE_COLUMNS, step)
+
+
+def add_step(folder, **entries):
+    """Add a row to steps.csv, by the keys of its columns."""
+    folder.add_rows("steps", [[entries[key] for key in STEP_COLUMNS]])

@@ -8,16 +8,16 @@ import mpslab
 ROOT = Path(mpslab.__file__).parent
 FLOORS = {
     6: "tank progress measures film launch terminal",
-    5: "simulation record results watch output checkpoint vtkhdf snapshots overturning gauges "
-    "pictures preflight preflight_text cases initial inputs restart provenance diagnostics scatter "
-    "headings panels catalogue scenes",
+    5: "simulation record results watch output checkpoint vtkhdf snapshots overturning "
+    "pictures preflight preflight_text cases initial inputs restart provenance scatter "
+    "headings panels catalogue scenes actions",
     4: "step timestep settling",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
     "deflation conjugate_gradient piston geometry filling correction obstacles "
-    "gates friction census",
+    "gates friction census instruments gauges diagnostics parts reaction",
     2: "balance communicator headcount domain rebalance",
     1: "particles kinds neighbors stencil sparse slabs parameters scheme keys plugins bed paddle "
-    "waves breaking stopwatch files journal lock tables series memory columns",
+    "waves breaking stopwatch files journal lock tables series schedule memory columns",
     0: "kernels",
 }
 FLOOR_OF = {name: floor for floor, names in FLOORS.items() for name in names.split()}

@@ -7,6 +7,7 @@ import subprocess
 
 import numpy as np
 import pytest
+from tanks import add_step, open_tables
 
 from mpslab import columns, output, provenance, tables
 from mpslab.output import CsvTable, RunFolder
@@ -46,11 +47,11 @@ def step_row(step):
 def write_steps(folder, steps):
     for step in steps:
         time = step / 3
-        folder.add_step(**step_row(step))
+        add_step(folder, **step_row(step))
         folder.add_phases(step, time, {("solve", "work"): 0.1 * step, ("rest", "waiting"): 0.5})
-        folder.add_gauges(time, np.array([time / 7, math.nan]))
-        folder.add_probes(time, [(1000.0 / 3, 0.1, 0.0, time)])
-        folder.add_lost(step, time, [step], np.full((1, 3), time), "left, upwards")
+        folder.add_rows("gauges", [(time, np.float64(time / 7), math.nan)])
+        folder.add_rows("probes", [(time, 1000.0 / 3, 0.1, 0.0, time)])
+        folder.add_rows("lost", [(step, time, step, time, time, time, "left, upwards")])
 
 
 def rows(path):
@@ -61,7 +62,7 @@ def rows(path):
 @pytest.fixture
 def folder(tmp_path):
     folder = RunFolder.create(tmp_path / "run")
-    folder.open_tables(["g1", "g2"], ["p1"])
+    open_tables(folder, ["g1", "g2"], ["p1"])
     return folder
 
 
@@ -107,13 +108,13 @@ def test_resumed_tables_are_those_of_an_uninterrupted_run(folder, tmp_path):
     write_steps(folder, range(1, 11))
     folder.close()
     broken = RunFolder.create(tmp_path / "broken")
-    broken.open_tables(["g1", "g2"], ["p1"])
+    open_tables(broken, ["g1", "g2"], ["p1"])
     write_steps(broken, range(1, 8))
     broken.close()
     for path in broken.path.glob("*.csv"):  # a kill amid the row of step 12, or of 1.2 s
         path.write_text(path.read_text() + "1")
     resumed = RunFolder(broken.path)
-    resumed.open_tables(["g1", "g2"], ["p1"], last_step=5, last_time=5 / 3)
+    open_tables(resumed, ["g1", "g2"], ["p1"], step=5, time=5 / 3)
     write_steps(resumed, range(6, 11))
     resumed.close()
     for name in ("steps", "phases", "gauges", "probes", "lost"):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 from synthetic import write_run
+from tanks import open_tables
 
 from mpslab import cases, headings, pictures, snapshots, vtkhdf
 from mpslab import panels as panels_of
@@ -40,7 +41,7 @@ def test_empty_tables_and_no_frames_give_no_pictures(tmp_path, folder):
     empty = RunFolder.create(tmp_path / "empty")
     empty.write_case(folder.case.read_text())
     assert pictures.draw_run(empty.path) == []
-    empty.open_tables(["g1"])
+    open_tables(empty, ["g1"])
     empty.close()
     assert pictures.draw_run(empty.path) == []
 

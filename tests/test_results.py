@@ -6,7 +6,7 @@ import shutil
 
 import numpy as np
 import pytest
-from tanks import make_case
+from tanks import make_case, open_tables
 
 import mpslab
 from mpslab import journal, tank, vtkhdf
@@ -75,8 +75,9 @@ def test_tables_of_the_ranks_and_of_the_lost_have_names_without_units(made, tmp_
     assert (run.phases["solve"] > run.phases["solve waiting"]).all()
     assert (len(run.decomposition), len(run.lost)) == (0, 0)
     folder = RunFolder.create(tmp_path / "ranks")
-    folder.open_tables()
-    folder.add_lost(3, 0.1, [7, 8], np.array([[1.0, 0.0, 2.0], [3.0, 0.0, 4.0]]), "left, upwards")
+    open_tables(folder)
+    lost = [(7, 1.0, 0.0, 2.0), (8, 3.0, 0.0, 4.0)]
+    folder.add_rows("lost", [(3, 0.1, *one, "left, upwards") for one in lost])
     folder.open_decomposition(None, 2)
     entry = {"imbalance_before": 1.5, "imbalance_after": 1.1, "migrated": 4, "ghosts": 11}
     for step, ranks in ((20, 2), (40, 3)):

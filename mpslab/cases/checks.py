@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import obstacles, plugins
+from mpslab import instruments, obstacles, plugins
 from mpslab.cases import contents
 from mpslab.cases.contents import ROUNDING
 from mpslab.census import census
@@ -43,7 +43,8 @@ def check(case: Case) -> None:
     _check_gravity(case)
     _check_time(case)
     for name in ("gauge", "probe"):
-        _check_instruments(case, name)
+        _check_places(case, name)
+    instruments.check(case)
 
 
 def _check_models(case):
@@ -54,7 +55,10 @@ def _check_models(case):
                 value = getattr(table, item.name)
                 words = value if isinstance(value, tuple) else (value,)
                 for word in words:
-                    require_choice(f"{name}.{toml_name(item)}", word, models(item.metadata))
+                    if plugins.is_path(word):
+                        plugins.load(item.metadata["family"], word)
+                    else:
+                        require_choice(f"{name}.{toml_name(item)}", word, models(item.metadata))
     scheme = case.scheme
     require(
         scheme.surface == "marked" or scheme.walls == "extrapolated",
@@ -244,22 +248,15 @@ def _check_time(case):
     )
 
 
-def _check_instruments(case, kind):
+def _check_places(case, kind):
     tank = case.tank
     slack = ROUNDING * tank.length
-    first, items = {}, getattr(case, kind)
+    items = getattr(case, kind)
+    instruments.check_names(kind, items)
     places = np.array([[item.x, item.y, getattr(item, "z", 0.0)] for item in items]).reshape(-1, 3)
     ground, holders = tank.bed_height(places[:, 0]), obstacles.deep_inside(case, places)
     for i, item in enumerate(items):
         where = f"{kind}.{i}"
-        require(
-            first.setdefault(item.name, i) == i,
-            f"{where}.name",
-            item.name,
-            f"different from {kind}.{first[item.name]}.name",
-        )
-        rule = "another word than that of the column of times"
-        require(item.name != "time", f"{where}.name", item.name, rule)
         inside = item.x <= tank.length + slack
         require(inside, f"{where}.x", item.x, f"from 0 to tank.length = {tank.length:g} m")
         inside = item.y <= tank.width + slack

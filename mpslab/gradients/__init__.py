@@ -13,4 +13,11 @@ Each module has one function::
 and two flags that say what it promises: ``CONSERVES_MOMENTUM`` (pair forces between fluid
 particles are equal and opposite) and ``EXACT_FOR_LINEAR`` (any arrangement of neighbours).  A
 module of any family that works with the correction matrices says ``NEEDS_CORRECTION = True``.
+
+For the force on a solid, `gradient` is called once more, with the pairs of the water with this
+solid alone. A module whose sums need more than the pair has a second function::
+
+    as_pairs(position, pressure, role, indptr, indices, stencil) -> gradient, pressure
+
+a gradient that looks at one pair at a time, and a pressure, (n,), with which that gives the same.
 """

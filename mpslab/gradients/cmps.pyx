@@ -1,6 +1,7 @@
 """Pressure gradient of the Corrected MPS method (CMPS)."""
 import numpy as np
 
+from mpslab.gradients import symmetric
 from mpslab.kernels.minimum import least_pressure
 from mpslab.kernels.pair cimport FLUID, distance, has_pressure, weight, wrap
 
@@ -41,3 +42,10 @@ def gradient(const double[:, ::1] position, const double[::1] pressure,
             out[i, 0] = factor * gx
             out[i, 1] = factor * gy
             out[i, 2] = factor * gz
+
+
+def as_pairs(position, pressure, role, indptr, indices, stencil):
+    """That of `symmetric` with p - p^ in place of p, which looks at one pair at a time."""
+    least = np.empty_like(pressure)
+    least_pressure(position, pressure, role, indptr, indices, stencil, least)
+    return symmetric.gradient, pressure - least

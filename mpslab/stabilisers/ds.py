@@ -12,11 +12,16 @@ def stabilise(particles, before, neighbors, stencil, correction, dt, scheme):
     """Remove the overlap of pairs below ``ds_distance`` (after Tsuruta et al. 2013), and the
     approach that led to it.
     """
-    move, change = np.empty_like(particles.position), np.empty_like(particles.velocity)
     for _ in range(PASSES):
-        repulsion.overlap(
-            particles.position, before, particles.velocity, particles.role, neighbors.indptr,
-            neighbors.indices, stencil, scheme.ds_distance * stencil.spacing, dt, move, change,
-        )  # fmt: skip
-        particles.position += move
-        particles.velocity += change
+        one_pass(particles, before, neighbors, stencil, correction, dt, scheme)
+
+
+def one_pass(particles, before, neighbors, stencil, correction, dt, scheme):
+    """Part each pair once."""
+    move, change = np.empty_like(particles.position), np.empty_like(particles.velocity)
+    repulsion.overlap(
+        particles.position, before, particles.velocity, particles.role, neighbors.indptr,
+        neighbors.indices, stencil, scheme.ds_distance * stencil.spacing, dt, move, change,
+    )  # fmt: skip
+    particles.position += move
+    particles.velocity += change

@@ -1,0 +1,39 @@
+"""Readings of particles near a place, wherever they are owned."""
+
+import numpy as np
+
+
+def read_near(flow, places, reach, read):
+    """What `read` makes of the particles near some places, the same on all ranks.
+
+    Parameters
+    ----------
+    flow : mpslab.step.Flow
+    places : sequence of float [m]
+        Along the tank.
+    reach : float [m]
+    read : callable
+        Gets a `ParticleSet` in the order of gid, on rank 0 alone, and returns a list. On one rank,
+        all particles are in the set.
+
+    Returns
+    -------
+    list
+        Empty where there are no places.
+    """
+    if not places:
+        return []
+    domain = flow.domain
+    particles = domain.gather(_near(flow, places, reach))
+    return domain.from_all(None if particles is None else read(particles))[0]
+
+
+def _near(flow, places, reach):
+    """This rank's particles within the reach of a place."""
+    particles = flow.particles
+    if flow.domain.size == 1:
+        return particles
+    near = np.zeros(len(particles), bool)
+    for x in places:
+        near |= np.abs(particles.position[:, 0] - x) < reach
+    return particles.take(near)

@@ -1,0 +1,52 @@
+"""The steps: what each of them took, and what the water holds after it."""
+
+from mpslab import diagnostics
+from mpslab.columns import STEP_COLUMNS
+from mpslab.instruments import Instrument
+
+
+def make(case):
+    """The table of steps."""
+    return Steps()
+
+
+class Steps(Instrument):
+    """Time step, solver, energies and volume of the water, force and work of the piston.
+
+    Attributes
+    ----------
+    last : dict
+        The last row, by the keys of `mpslab.columns.STEP_COLUMNS`.
+    """
+
+    name = "steps"
+    columns = tuple(STEP_COLUMNS.values())
+    words = {"dt_limit": 16}  # noqa: RUF012
+
+    def __init__(self):
+        self.last = {}
+
+    def read(self, flow):
+        """The row of the step that is done; none before the first."""
+        if not flow.done:
+            return []
+        found = {**flow.done, "time": flow.time, **integrals(flow, flow.done["before"])}
+        self.last = {key: found[key] for key in STEP_COLUMNS}
+        return [tuple(self.last.values())]
+
+
+def integrals(flow, before):
+    """What the water holds now and what the piston did since `before` [s], a dict by column."""
+    p, stencil, fluid, total = flow.particles, flow.stencil, flow.case.fluid, flow.domain.total
+    force = diagnostics.piston_force(p, stencil, total)
+    stroke = flow.piston.face(flow.time) - flow.piston.face(before)
+    return {
+        "max_speed": max(flow.domain.from_all(diagnostics.max_speed(p))),
+        "kinetic_energy": diagnostics.kinetic_energy(p, stencil, fluid.density, total),
+        "potential_energy": diagnostics.potential_energy(
+            p, stencil, fluid.density, fluid.gravity, total
+        ),
+        "volume": diagnostics.volume(p, stencil, total),
+        "piston_force": force,
+        "piston_work": force * stroke,
+    }
