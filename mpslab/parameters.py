@@ -100,6 +100,8 @@ class Water(Box):
 class Obstacle(Box):
     """A solid box that stands in the tank."""
 
+    name: str | None = key("its name; obstacle-1 and so on if left out", None, **NAME)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Gate:
@@ -108,6 +110,7 @@ class Gate:
     x: float = key("place of the face towards the wavemaker", unit="m", above=0)
     speed: float = key("speed at which it is lifted", unit="m/s", above=0, high=1e3)
     opens: float = key("time at which it begins to rise", 0.0, unit="s", low=0)
+    name: str | None = key("its name; gate-1 and so on if left out", None, **NAME)
 
     def __post_init__(self):
         check_table(self)

@@ -235,7 +235,7 @@ class Record:
         p, stencil, fluid = self.flow.particles, self.flow.stencil, self.case.fluid
         total = self.flow.domain.total
         force = diagnostics.piston_force(p, stencil, total)
-        stroke = self.flow.piston.face(self.flow.time) - self.flow.piston.face(before)
+        stroke = self.flow.solids.face(self.flow.time) - self.flow.solids.face(before)
         return {
             "max_speed": max(self.flow.domain.from_all(diagnostics.max_speed(p))),
             "kinetic_energy": diagnostics.kinetic_energy(p, stencil, fluid.density, total),

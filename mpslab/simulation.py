@@ -14,9 +14,10 @@ from mpslab.domain import world
 from mpslab.memory import keep_freed
 from mpslab.output import RunFolder
 from mpslab.particles import ParticleSet, no_particles
-from mpslab.piston import Piston, make_paddle
 from mpslab.rebalance import Rebalancer
 from mpslab.record import Record
+from mpslab.solids.collection import solids_of
+from mpslab.solids.piston import make_paddle
 from mpslab.step import advance, make_flow
 from mpslab.watch import RunFailed, check_finite, check_lost, check_step, find_lost
 
@@ -111,7 +112,7 @@ class Simulation:
         flow = _flow(
             case, make_paddle(case), lambda: ParticleSet(**checkpoint.read(folder.checkpoint)[0])
         )
-        flow.piston.rest, flow.piston.bed = state["piston_rest"], state["piston_bed"]
+        flow.solids.restore(state)
         self = cls.__new__(cls)
         self._set_up(flow, folder, found.inputs)
         self.step, self.dt, self.lost = state["step"], state["dt"], state["lost"]
@@ -296,7 +297,7 @@ class Simulation:
 
     def _take_out_lost(self):
         particles = self.particles
-        lost = find_lost(self.case, particles, self._flow.piston.face(self.time))
+        lost = find_lost(self.case, particles, self._flow.solids.face(self.time))
         sides = self._record.add_lost(self.step, lost)
         self.lost += len(sides)
         self._sides.update(sides)
@@ -326,8 +327,7 @@ class Simulation:
             "dt": self.dt,
             "lost": self.lost,
             "at_start": self.at_start,
-            "piston_rest": self._flow.piston.rest,
-            "piston_bed": self._flow.piston.bed,
+            **self._flow.solids.state(),
             "case": self._text,
             "inputs": self._files,
         }
@@ -350,8 +350,7 @@ class Simulation:
 def _flow(case, paddle, make):
     """The flow of the particles that `make` gives on rank 0: no other holds the whole tank."""
     particles = on_root(world(), make) or no_particles()
-    piston = Piston(particles, paddle, case.particles.spacing)
-    return make_flow(case, particles, piston, geometry.period(case))
+    return make_flow(case, particles, solids_of(case, paddle), geometry.period(case))
 
 
 def _ending(error):

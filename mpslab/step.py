@@ -6,13 +6,13 @@ from types import ModuleType
 
 import numpy as np
 
-from mpslab import correction, friction, gates, geometry, plugins, pressure, surface, walls
+from mpslab import correction, friction, geometry, plugins, pressure, surface, walls
 from mpslab.domain import Domain
 from mpslab.kernels import density
 from mpslab.neighbors import NeighborList
 from mpslab.particles import ParticleSet, on_axes
-from mpslab.piston import Piston
 from mpslab.slabs import make_slabs
+from mpslab.solids.collection import Solids
 from mpslab.stencil import Stencil, make_stencil
 
 LAYERS = 20  # of water, up to which the weight of a density error does not depend on them
@@ -28,7 +28,7 @@ class Flow:
     case : mpslab.parameters.Case
     particles : ParticleSet
         Those that this rank owns; within a step also its ghosts.
-    piston : Piston
+    solids : Solids
     stencil, laplacian_stencil : Stencil
         Of gradient and number density, and of the Laplacian.
     domain : Domain
@@ -41,7 +41,7 @@ class Flow:
 
     case: object
     particles: ParticleSet
-    piston: Piston
+    solids: Solids
     stencil: Stencil
     laplacian_stencil: Stencil
     domain: Domain
@@ -77,15 +77,15 @@ class Flow:
         return wanted or self.case.scheme.smagorinsky > 0.0
 
 
-def make_flow(case, particles, piston, width, comm=None):
+def make_flow(case, particles, solids, width, comm=None):
     """Load the models that a case names.
 
     Parameters
     ----------
     particles : ParticleSet
         All particles of the tank, on rank 0; the flow keeps those of this rank.
-    piston : Piston
-        Of these particles, on rank 0; all ranks get it.
+    solids : Solids
+        Of this tank; on rank 0 they see all particles before these are shared out.
     width : float [m]
         Period across the tank, 0 when not periodic.
     comm : communicator, optional
@@ -100,13 +100,14 @@ def make_flow(case, particles, piston, width, comm=None):
     dim = 2 if case.tank.width == 0.0 else 3
     stencil = make_stencil(dim, spacing, scheme.effective_radius, width)
     laplacian_stencil = make_stencil(dim, spacing, scheme.laplacian_radius, width)
-    domain = Domain(slabs_of(case, piston.paddle), comm)
+    paddle = solids.piston.paddle if solids.piston else None
+    domain = Domain(slabs_of(case, paddle), comm)
     solver = solver_of(case, domain.size)
-    piston.share_out(domain.comm)
+    solids.begin(particles, domain.comm)
     return Flow(
         case=case,
         particles=domain.take_part(particles, case.parallel.balance),
-        piston=piston,
+        solids=solids,
         stencil=stencil,
         laplacian_stencil=laplacian_stencil,
         domain=domain,
@@ -173,7 +174,8 @@ def advance(flow, dt):
         _add_viscosity(flow, dt)
         _stabilise(flow, "predicted", particles.position, dt)
         graded = find_surface(flow)
-    pull = walls.pull(particles, before, flow.case.fluid.gravity, dt)
+    moving = flow.solids.accelerates(particles)
+    pull = walls.pull(particles, before, flow.case.fluid.gravity, dt, moving)
     with watch.phase("assembly"):
         system, rows = _assemble(flow, graded, pull, dt)
     with watch.phase("solve"):
@@ -186,23 +188,17 @@ def advance(flow, dt):
 
 
 def _predict(flow, dt):
-    """u' = u + g dt; with projection "predicted" also r* = r + u' dt, and the piston's new place.
+    """u' = u + g dt; with projection "predicted" also r* = r + u' dt, and the solids' new places.
 
     The projection decides the damping.  In a wave of frequency w the pressure at r* takes away
     (w dt)^2/2 of the amplitude in each step; at the positions of the start it takes nothing.
     """
     particles = flow.particles
-    flow.piston.push(particles, flow.time, dt)
-    gates.push(flow.case, particles, flow.time, dt)
+    flow.solids.push(particles, flow.time, dt)
     particles.velocity[:, 2] -= flow.case.fluid.gravity * dt * particles.fluid
     if flow.case.scheme.projection == "predicted":
         particles.position += dt * particles.velocity * on_axes(particles.fluid)
-        _move_solids(flow, dt)
-
-
-def _move_solids(flow, dt):
-    flow.piston.move(flow.particles, flow.time + dt)
-    gates.move(flow.case, flow.particles, flow.time, dt)
+        flow.solids.move(particles, flow.time, dt)
 
 
 def find_neighbors(flow):
@@ -300,7 +296,7 @@ def _correct(flow, start, dt):
     moved = start + dt * particles.velocity
     np.copyto(particles.position, moved, where=on_axes(particles.fluid))
     if flow.case.scheme.projection == "start":
-        _move_solids(flow, dt)
+        flow.solids.move(particles, flow.time, dt)
     _stabilise(flow, "corrected", before, dt)
     if flow.stencil.width > 0.0:
         particles.position[:, 1] %= flow.stencil.width

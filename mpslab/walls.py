@@ -12,18 +12,17 @@ from mpslab.kernels import walls as kernels
 from mpslab.particles import FACE, FILLER, FLUID, on_axes
 
 
-def pull(particles, before, gravity, dt):
-    """g - a of every particle, a being the acceleration of the piston, (n, 3) [m/s2].
-
-    Gates rise at a constant speed; the jump of it as they open is left out.
+def pull(particles, before, gravity, dt, moving):
+    """g - a of every particle, a being the acceleration of the solid, (n, 3) [m/s2].
 
     Parameters
     ----------
     before : (n, 3) float64 [m/s]
         Velocities at the start of the step; those of the particles are the new ones for walls.
+    moving : (n,) bool
+        Particles of solids whose acceleration the water feels.
     """
     out = np.zeros_like(before)
-    moving = particles.moves_with_piston
     out[moving] = (before[moving] - particles.velocity[moving]) / dt
     out[:, 2] -= gravity
     return out

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mpslab import obstacles
-from mpslab.geometry import effective_length, rows_across
+from mpslab.core.lattice import effective_length, rows_across
+from mpslab.solids import obstacles
 
 MOST_LOST = 1e-3  # of the fluid particles at the start
 FEW_LOST = 5  # are borne by any run

@@ -7,12 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import obstacles, plugins
+from mpslab import plugins
 from mpslab.cases import contents
 from mpslab.cases.contents import ROUNDING
 from mpslab.census import census
 from mpslab.keys import CaseError, require, require_choice, toml_name
 from mpslab.parameters import Case
+from mpslab.solids import obstacles
 
 # Above this a case is taken for a slip of the pen: its arrays would take hundreds of gigabytes.
 MOST_PARTICLES = 1e9
