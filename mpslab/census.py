@@ -38,6 +38,8 @@ def census(case, backmost=0.0):
     rows = rows_across(case)
     behind = np.ceil(-backmost / case.particles.spacing) if case.wavemaker.type != "none" else 0.0
     floor = _floor(case, behind)
+    if case.tank.lid:
+        floor = {kind: floor[kind] + number for kind, number in _lid(case).items()}
     count[FLUID] = _water(case)
     for kind, number in (*floor.items(), *_ends(case).items(), *_gates(case).items()):
         count[kind] += number * rows
@@ -108,6 +110,14 @@ def _floor(case, behind):
     points = beds.extended(case.tank.bed, (behind + layers) * spacing, layers * spacing)
     numbers = [beds.count(points, (k + 0.5) * spacing, spacing) for k in range(layers)]
     return {WALL: numbers[0] - ends, DUMMY: sum(numbers) - numbers[0] + ends}
+
+
+def _lid(case):
+    """Layers of the lid in the section, by kind."""
+    length = round(case.tank.length / case.particles.spacing)
+    layers = case.particles.layers
+    faces = length + 2.0
+    return {WALL: faces, DUMMY: layers * (length + 2.0 * layers) - faces}
 
 
 def _ends(case):

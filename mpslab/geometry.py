@@ -8,6 +8,7 @@ import scipy
 
 from mpslab import filling
 from mpslab.core.lattice import at_row, effective_length, rows_across
+from mpslab.forcings import forcings_of, total
 from mpslab.particles import FIRST_SOLID, FLUID, WATER, make_particles
 from mpslab.solids import obstacles
 from mpslab.solids.collection import solids_of
@@ -97,7 +98,8 @@ def _set_hydrostatic(case, particles):
     top = np.full(column.max() + 1, -np.inf)
     np.maximum.at(top, column[fluid], particles.position[fluid, 2] + 0.5 * spacing)
     depth = np.maximum(top[column] - particles.position[:, 2], 0.0)
-    weight = case.fluid.density * case.fluid.gravity
+    down = -total(forcings_of(case), particles, 0.0)[..., 2]
+    weight = case.fluid.density * np.maximum(down, 0.0)
     particles.pressure[:] = np.where(particles.carries_pressure, weight * depth, 0.0)
     if case.water:  # which may float above the bed
         off = scipy.spatial.cKDTree(particles.position[fluid]).query(particles.position)[0]

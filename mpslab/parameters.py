@@ -35,6 +35,7 @@ class Tank:
         low=0,
     )
     periodic: bool = key("true: periodic across y; false: side walls", False)
+    lid: bool = key("true: closed on top, at tank.height; not with a wavemaker or a gate", False)
 
     def __post_init__(self):
         check_table(self)
@@ -175,6 +176,36 @@ class Wavemaker:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Frame:
+    """Motion of the tank itself: the run is in the tank, and inertia acts on its water."""
+
+    type: str = key(
+        "a sine of sway (along x), heave (up and down) or roll (about an axis across, positive "
+        "where it lifts the far end); the record of a file; none for a tank at rest",
+        "none",
+        choices=("none", "sway", "heave", "roll", "file"),
+    )
+    amplitude: float = key("amplitude of the sine", 0.0, unit="m, of roll deg", low=0, high=1e3)
+    period: float = key("period of the sine", 0.0, unit="s", low=0)
+    start: float = key("time in which the motion fades in; 0 for none", 0.0, unit="s", low=0)
+    center: tuple | None = key(
+        "axis of the roll [x, z]; below the middle of the tank, at z = 0, if left out",
+        None,
+        kind="place",
+        unit="m",
+    )
+    file: str = key(
+        "CSV file with a heading: time [s] and any of x [m], z [m] and roll [deg]; "
+        '"" for none',
+        "",
+        copy="frame.csv",
+    )
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Particles:
     """How the tank is filled with particles."""
 
@@ -294,6 +325,7 @@ TABLES = {
     "fluid": Fluid,
     "initial": Initial,
     "wavemaker": Wavemaker,
+    "frame": Frame,
     "particles": Particles,
     "scheme": Scheme,
     "time": Time,
@@ -315,6 +347,7 @@ class Case:
     fluid: Fluid = field(default_factory=Fluid)
     initial: Initial = field(default_factory=Initial)
     wavemaker: Wavemaker = field(default_factory=Wavemaker)
+    frame: Frame = field(default_factory=Frame)
     scheme: Scheme = field(default_factory=Scheme)
     parallel: Parallel = field(default_factory=Parallel)
     output: Output = field(default_factory=Output)

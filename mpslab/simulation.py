@@ -10,6 +10,7 @@ import numpy as np
 from mpslab import checkpoint, diagnostics, geometry, initial, inputs, restart, settling, timestep
 from mpslab.cases import dumps
 from mpslab.communicator import on_root
+from mpslab.core import own
 from mpslab.domain import world
 from mpslab.memory import keep_freed
 from mpslab.output import RunFolder
@@ -35,6 +36,9 @@ class Simulation:
         New or empty folder for the files of the run, or one that `take` gave; without it
         everything stays in memory. No other run can have the folder until this one has ended, or
         is forgotten.
+    forcings, solids : sequence, optional
+        One's own, beside those of the case; `mpslab.forcings` and `mpslab.solids` say what they
+        are. A run that goes on finds them again by the names of module and object.
 
     Attributes
     ----------
@@ -53,11 +57,12 @@ class Simulation:
     >>> run.gauges["time"], run.particles.position
     """
 
-    def __init__(self, case, out=None):
+    def __init__(self, case, out=None, forcings=(), solids=()):
         if not (out is None or isinstance(out, RunFolder)):
             out = take(RunFolder.create, out)
         try:
             files = inputs.of(case)
+            self._own = {"forcings": tuple(forcings), "solids": tuple(solids)}
             flow = self._lay_out(case)
         except BaseException:
             if out is not None:
@@ -74,14 +79,23 @@ class Simulation:
         """The water of a case, settled."""
         paddle = make_paddle(case)
         backmost = paddle.backmost if paddle else 0.0
-        flow = _flow(case, paddle, lambda: geometry.build_particles(case, backmost))
+        solids = self._own["solids"]
+        flow = self._flow_of(
+            case, paddle, lambda: geometry.build_particles(case, backmost, solids)
+        )
         self.at_start = sum(flow.domain.from_all(int(np.count_nonzero(flow.particles.fluid))))
         settling.settle(flow)
         initial.set_velocity(case, flow.particles, flow.domain.total)
         return flow
 
+    def _flow_of(self, case, paddle, make):
+        """The flow of the particles that `make` gives on rank 0: no other holds the whole tank."""
+        particles = on_root(world(), make) or no_particles()
+        solids = solids_of(case, paddle, self._own["solids"])
+        return make_flow(case, particles, solids, geometry.period(case), self._own["forcings"])
+
     @classmethod
-    def resume(cls, folder, changes=None):
+    def resume(cls, folder, changes=None, forcings=None, solids=None):
         """Go on with the run in a folder from its last checkpoint.
 
         Parameters
@@ -90,30 +104,33 @@ class Simulation:
         changes : dict, optional
             Values that replace those of the case, by key: {"time.end": 3.0}. What may change is
             told in `mpslab.restart`.
+        forcings, solids : sequence, optional
+            One's own that the run began with; left out, they are found by their names.
 
         Raises
         ------
         ValueError
             If the folder holds no run, or another run has it, its checkpoint is damaged, an input
             file is not what it was, or the case differs from that of the checkpoint in what cannot
-            change.
+            change, or a forcing or solid cannot be found.
         """
         folder = take(RunFolder.reopen, folder)
         try:
-            return cls._resumed(folder, changes)
+            return cls._resumed(folder, changes, {"forcings": forcings, "solids": solids})
         except BaseException:
             folder.let_go()
             raise
 
     @classmethod
-    def _resumed(cls, folder, changes):
+    def _resumed(cls, folder, changes, given):
         found = restart.look(folder, changes)
         case, state = found.case, found.state
-        flow = _flow(
+        self = cls.__new__(cls)
+        self._own = own.again(state["own"], given)
+        flow = self._flow_of(
             case, make_paddle(case), lambda: ParticleSet(**checkpoint.read(folder.checkpoint)[0])
         )
         flow.solids.restore(state)
-        self = cls.__new__(cls)
         self._set_up(flow, folder, found.inputs)
         self.step, self.dt, self.lost = state["step"], state["dt"], state["lost"]
         self.at_start = state["at_start"]
@@ -328,6 +345,7 @@ class Simulation:
             "lost": self.lost,
             "at_start": self.at_start,
             **self._flow.solids.state(),
+            "own": own.to_text(self._own),
             "case": self._text,
             "inputs": self._files,
         }
@@ -345,12 +363,6 @@ class Simulation:
             failure.add_note(f"The state could not be written to failed.h5 ({error.strerror})")
         with suppress(OSError):
             self._record.write_run(self.outcome, self.reason)
-
-
-def _flow(case, paddle, make):
-    """The flow of the particles that `make` gives on rank 0: no other holds the whole tank."""
-    particles = on_root(world(), make) or no_particles()
-    return make_flow(case, particles, solids_of(case, paddle), geometry.period(case))
 
 
 def _ending(error):

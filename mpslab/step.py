@@ -8,6 +8,7 @@ import numpy as np
 
 from mpslab import correction, friction, geometry, plugins, pressure, surface, walls
 from mpslab.domain import Domain
+from mpslab.forcings import forcings_of, total
 from mpslab.kernels import density
 from mpslab.neighbors import NeighborList
 from mpslab.particles import ParticleSet, on_axes
@@ -32,6 +33,8 @@ class Flow:
     stencil, laplacian_stencil : Stencil
         Of gradient and number density, and of the Laplacian.
     domain : Domain
+    forcings : tuple
+        Of the case, and the user's own.
     neighbors : NeighborList
         Where the pressure acted last.
     correction : (n, 6) float64 or None
@@ -50,6 +53,7 @@ class Flow:
     solver: ModuleType
     pair_terms: tuple
     stabilisers: tuple
+    forcings: tuple
     neighbors: NeighborList = field(default_factory=NeighborList)
     correction: np.ndarray | None = None
     time: float = 0.0
@@ -77,7 +81,7 @@ class Flow:
         return wanted or self.case.scheme.smagorinsky > 0.0
 
 
-def make_flow(case, particles, solids, width, comm=None):
+def make_flow(case, particles, solids, width, forcings=(), comm=None):
     """Load the models that a case names.
 
     Parameters
@@ -88,6 +92,8 @@ def make_flow(case, particles, solids, width, comm=None):
         Of this tank; on rank 0 they see all particles before these are shared out.
     width : float [m]
         Period across the tank, 0 when not periodic.
+    forcings : sequence of forcings
+        Beside those of the case.
     comm : communicator, optional
         As for `mpslab.domain.Domain`.
 
@@ -116,6 +122,7 @@ def make_flow(case, particles, solids, width, comm=None):
         solver=solver,
         pair_terms=plugins.load("laplacians", scheme.laplacian).pair_terms(laplacian_stencil),
         stabilisers=tuple(plugins.load("stabilisers", name) for name in scheme.stabiliser),
+        forcings=forcings_of(case, forcings),
     )
 
 
@@ -175,7 +182,7 @@ def advance(flow, dt):
         _stabilise(flow, "predicted", particles.position, dt)
         graded = find_surface(flow)
     moving = flow.solids.accelerates(particles)
-    pull = walls.pull(particles, before, flow.case.fluid.gravity, dt, moving)
+    pull = walls.pull(particles, before, force_on(flow, dt), dt, moving)
     with watch.phase("assembly"):
         system, rows = _assemble(flow, graded, pull, dt)
     with watch.phase("solve"):
@@ -188,17 +195,24 @@ def advance(flow, dt):
 
 
 def _predict(flow, dt):
-    """u' = u + g dt; with projection "predicted" also r* = r + u' dt, and the solids' new places.
+    """u' = u + f dt with the forcings f; with projection "predicted" also r* = r + u' dt.
+
+    With that projection the solids are at their new places from here on.
 
     The projection decides the damping.  In a wave of frequency w the pressure at r* takes away
     (w dt)^2/2 of the amplitude in each step; at the positions of the start it takes nothing.
     """
     particles = flow.particles
     flow.solids.push(particles, flow.time, dt)
-    particles.velocity[:, 2] -= flow.case.fluid.gravity * dt * particles.fluid
+    particles.velocity += dt * force_on(flow, dt) * on_axes(particles.fluid)
     if flow.case.scheme.projection == "predicted":
         particles.position += dt * particles.velocity * on_axes(particles.fluid)
         flow.solids.move(particles, flow.time, dt)
+
+
+def force_on(flow, dt):
+    """Acceleration of the particles by the forcings in the middle of a step, (3,) or (n, 3)."""
+    return total(flow.forcings, flow.particles, flow.time + 0.5 * dt)
 
 
 def find_neighbors(flow):

@@ -10,7 +10,8 @@ def complete(case: Case) -> Case:
     """The case with nothing left open; a case that is complete comes back equal.
 
     Left open by 0 or [], or left out: wall height, bed, wall layers, limits of the time step,
-    output intervals, names of solids, and y of the instruments. In a 2-D tank every y is 0.
+    output intervals, names of solids, the axis of a roll, and y of the instruments. In a 2-D tank
+    every y is 0.
     """
     tank = _tank(case.tank)
     return replace(
@@ -19,6 +20,7 @@ def complete(case: Case) -> Case:
         water=_boxes(case.water, tank),
         obstacle=_named("obstacle", _boxes(case.obstacle, tank)),
         gate=_named("gate", case.gate),
+        frame=replace(case.frame, center=case.frame.center or (0.5 * tank.length, 0.0)),
         particles=replace(case.particles, layers=case.particles.layers or least_layers(case)),
         time=_time(case),
         output=_output(case),

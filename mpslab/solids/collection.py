@@ -44,6 +44,10 @@ class Solids:
     """
 
     def __init__(self, bodies):
+        names = [solid.name for solid in bodies.values()]
+        for name in names:
+            if names.count(name) > 1:
+                raise ValueError(f"solid {name!r}: must have a name that no other solid has")
         self.bodies = bodies
         self.moving = {body: solid for body, solid in bodies.items() if solid.motion is not None}
         self.felt = [body for body, solid in self.moving.items() if not solid.jumps]

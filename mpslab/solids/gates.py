@@ -78,10 +78,8 @@ class Lift:
     def __init__(self, speed, opens, height):
         self.speed, self.opens, self.height = speed, opens, height
 
-    def __call__(self, time, derivative=0):
-        rise = min(max(self.speed * (time - self.opens), 0.0), self.height)
-        rises = self.speed if 0.0 < rise < self.height else 0.0
-        return np.array([0.0, (rise, rises, 0.0)[derivative], 0.0])
+    def __call__(self, time):
+        return np.array([0.0, min(max(self.speed * (time - self.opens), 0.0), self.height), 0.0])
 
 
 def make(case, tank):

@@ -90,10 +90,8 @@ class Piston(Solid):
         section, role = self.tank.end_wall(-1)
         return lattice.across(case, section), np.tile(role, lattice.rows_across(case))
 
-    def motion(self, time, derivative=0):
-        """How far its face has gone [m]."""
-        if derivative:
-            raise NotImplementedError("a wavemaker says where its face is, not how fast it goes")
+    def motion(self, time):
+        """How far its face has gone along x."""
         return np.array([self.face(time), 0.0, 0.0])
 
     def holds(self, points):

@@ -1,4 +1,4 @@
-"""The tank: bed, end walls and side walls, all at rest.
+"""The tank: bed, end walls, side walls and lid, all at rest.
 
 The cross-section (x, z) is laid out first and then repeated across. Wall particles stand half a
 spacing behind the boundary, in layers: faces first, fillers behind them.
@@ -49,13 +49,33 @@ class Tank(Solid):
         out = (x < 0.0) | (x > effective_length(case)) | (z < case.tank.bed_height(x))
         if case.tank.width > 0.0 and not case.tank.periodic:
             out |= (y < 0.0) | (y > lattice.rows_across(case) * case.particles.spacing)
-        return out
+        return out | (z > self.top) if case.tank.lid else out
 
     @cached_property
     def floor(self):
         """Layers of the bed in the section: (n, 2) [m] and roles (n,)."""
         staircase = self.case.particles.bed == "staircase"
         return self._staircase() if staircase else self._smooth_bed()
+
+    @cached_property
+    def lid(self):
+        """Layers above the walls in the section, none without a lid: (n, 2) [m] and roles (n,)."""
+        case, layers, spacing = self.case, self.case.particles.layers, self.case.particles.spacing
+        if not case.tank.lid:
+            return np.zeros((0, 2)), np.zeros(0, int)
+        beyond = layers * spacing
+        x = lattice.between(case, -beyond, effective_length(case) + beyond)
+        z = self.top + (np.arange(layers) + 0.5) * spacing
+        role = np.full((layers, len(x)), FILLER)
+        role[0, (x > -spacing) & (x < effective_length(case) + spacing)] = FACE
+        x, z = np.meshgrid(x, z)
+        return np.column_stack([x.ravel(), z.ravel()]), role.ravel()
+
+    @property
+    def top(self):
+        """Height of the walls in whole spacings [m]."""
+        spacing = self.case.particles.spacing
+        return round(self.case.tank.height / spacing) * spacing
 
     def end_wall(self, side):
         """Vertical layers at the seaward (-1) or landward (+1) end: (n, 2) [m] and roles (n,)."""
@@ -68,8 +88,8 @@ class Tank(Solid):
         return self.standing(np.vstack(rows), np.concatenate(roles))
 
     def standing(self, section, role):
-        """What of a section does not come too close to the bed's particles, with its roles."""
-        free = lattice.clear(self.case, section, self.floor[0])
+        """What of a section does not come too close to bed and lid, with its roles."""
+        free = lattice.clear(self.case, section, np.vstack([self.floor[0], self.lid[0]]))
         return section[free], role[free]
 
     @property
@@ -80,8 +100,8 @@ class Tank(Solid):
 
     @cached_property
     def _section(self):
-        """Bed and end walls in the section: (n, 2) [m] and roles (n,)."""
-        parts = [self.floor, *(self.end_wall(side) for side in self._walled_ends)]
+        """Bed, lid and end walls in the section: (n, 2) [m] and roles (n,)."""
+        parts = [self.floor, self.lid, *(self.end_wall(side) for side in self._walled_ends)]
         sections, roles = zip(*parts, strict=True)
         return np.vstack(sections), np.concatenate(roles)
 
@@ -129,7 +149,8 @@ class Tank(Solid):
         x = lattice.between(case, -behind - layers * spacing, end + layers * spacing)
         section = np.vstack([lattice.stack(case, place, case.tank.height) for place in x])
         solid, role = self._section
-        below = solid[:, 1] < beds.elevation(case.tank.bed, solid[:, 0])
+        beyond = solid[:, 1] < beds.elevation(case.tank.bed, solid[:, 0])
+        beyond |= solid[:, 1] > self.top if case.tank.lid else False
         inside = (section[:, 0] > -behind - spacing) & (section[:, 0] < end + spacing)
-        faces = np.concatenate([inside, role[below] == FACE]) & (layer == 0)
-        return np.vstack([section, solid[below]]), np.where(faces, FACE, FILLER)
+        faces = np.concatenate([inside, role[beyond] == FACE]) & (layer == 0)
+        return np.vstack([section, solid[beyond]]), np.where(faces, FACE, FILLER)
