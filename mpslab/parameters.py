@@ -151,7 +151,12 @@ class Wavemaker:
     )
     height: float = key("wave height; 0 where a type needs none", 0.0, unit="m", low=0)
     period: float = key("wave period; 0 where a type needs none", 0.0, unit="s", low=0)
-    stroke: float = key("stroke of the piston; 0 to follow from height", 0.0, unit="m", low=0)
+    stroke: float = key(
+        "stroke of the piston; 0 to follow from height; of a function the farthest it goes",
+        0.0,
+        unit="m",
+        low=0,
+    )
     first: str = key(
         "which way the piston goes first; backward with linear and second_order only",
         "forward",
@@ -162,6 +167,9 @@ class Wavemaker:
         'file of time [s] and displacement [m], such as CSV; "" for none',
         "",
         copy="wavemaker.csv",
+    )
+    function: str = key(
+        'displacement(t) of one\'s own, as "module:name" of what Python can import; "" for none', ""
     )
     offset: float = key("time of the file at t = 0 of the run", 0.0, unit="s", low=-1e9, high=1e9)
     smoothing: float = key(

@@ -121,6 +121,8 @@ class Record:
         read = None if particles is None else self._read(particles)
         levels, values = self.flow.domain.from_all(read)[0]
         time = self.flow.time
+        names = (gauge.name for gauge in self.case.gauge)
+        self.flow.readings.update(zip(names, levels, strict=True))
         self.gauges.add((time, *levels))
         self.probes.add((time, *(v for probe in values for v in probe)))
         self._write(lambda: self._write_instruments(time, levels, values))

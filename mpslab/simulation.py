@@ -1,5 +1,6 @@
 """The run: choose a time step, advance, write down."""
 
+import json
 import time as clock
 from collections import Counter
 from contextlib import suppress
@@ -131,6 +132,7 @@ class Simulation:
             case, make_paddle(case), lambda: ParticleSet(**checkpoint.read(folder.checkpoint)[0])
         )
         flow.solids.restore(state)
+        flow.readings.update(json.loads(state["readings"]))
         self._set_up(flow, folder, found.inputs)
         self.step, self.dt, self.lost = state["step"], state["dt"], state["lost"]
         self.at_start = state["at_start"]
@@ -345,6 +347,7 @@ class Simulation:
             "lost": self.lost,
             "at_start": self.at_start,
             **self._flow.solids.state(),
+            "readings": json.dumps(self._flow.readings),
             "own": own.to_text(self._own),
             "case": self._text,
             "inputs": self._files,

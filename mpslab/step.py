@@ -40,6 +40,8 @@ class Flow:
     correction : (n, 6) float64 or None
         Matrices of `mpslab.correction` there, where a model needs them.
     time : float [s]
+    readings : dict of str to float
+        What the gauges read last, by name [m], for what moves by it.
     """
 
     case: object
@@ -57,6 +59,7 @@ class Flow:
     neighbors: NeighborList = field(default_factory=NeighborList)
     correction: np.ndarray | None = None
     time: float = 0.0
+    readings: dict = field(default_factory=dict)
 
     @property
     def stopwatch(self):
@@ -203,6 +206,7 @@ def _predict(flow, dt):
     (w dt)^2/2 of the amplitude in each step; at the positions of the start it takes nothing.
     """
     particles = flow.particles
+    flow.solids.advance(flow.time, dt, flow.readings)
     flow.solids.push(particles, flow.time, dt)
     particles.velocity += dt * force_on(flow, dt) * on_axes(particles.fluid)
     if flow.case.scheme.projection == "predicted":

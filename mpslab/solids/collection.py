@@ -84,6 +84,11 @@ class Solids:
             if mine:
                 solid.restore(mine)
 
+    def advance(self, time, dt, readings):
+        """Let what moves decide on its move from time to time + dt."""
+        for solid in self.moving.values():
+            solid.advance(time, dt, readings)
+
     def push(self, particles, time, dt):
         """Give what moves the velocity of its move from time to time + dt, in place."""
         for body, solid in self.moving.items():

@@ -107,10 +107,18 @@ class Piston(Solid):
         self.bed = particles.gid[bed]
 
     def state(self):
-        return {"gid": self.gid, "rest": self.rest, "bed": self.bed}
+        own = {f"paddle.{key}": value for key, value in self.paddle.state().items()}
+        return {"gid": self.gid, "rest": self.rest, "bed": self.bed, **own}
 
     def restore(self, state):
         self.gid, self.rest, self.bed = state["gid"], state["rest"], state["bed"]
+        head = "paddle."
+        own = {k.removeprefix(head): v for k, v in state.items() if k.startswith(head)}
+        if own:
+            self.paddle.restore(own)
+
+    def advance(self, time, dt, readings):
+        self.paddle.advance(time, dt, readings)
 
     def face(self, time):
         """x of the piston's face [m]."""

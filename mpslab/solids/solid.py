@@ -39,6 +39,9 @@ class Solid:
     def restore(self, state):
         """Take back what `state` gave."""
 
+    def advance(self, time, dt, readings):
+        """Decide on the move from time to time + dt, as `mpslab.paddle.Paddle.advance` does."""
+
     def push(self, particles, rows, time, dt):
         """Give its particles the velocity of their move from time to time + dt, in place."""
         step = displacement(self.motion, particles.position[rows], time, time + dt)

@@ -148,6 +148,8 @@ class Tank(Solid):
         end = effective_length(case)
         x = lattice.between(case, -behind - layers * spacing, end + layers * spacing)
         section = np.vstack([lattice.stack(case, place, case.tank.height) for place in x])
+        if case.tank.lid:
+            section = section[lattice.clear(case, section, self.lid[0])]
         solid, role = self._section
         beyond = solid[:, 1] < beds.elevation(case.tank.bed, solid[:, 0])
         beyond |= solid[:, 1] > self.top if case.tank.lid else False
