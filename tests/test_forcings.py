@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from ranks import alone, start
 from tanks import flow_of, make_case, particles_at, run
 
 from mpslab import Simulation
@@ -157,6 +158,26 @@ def test_run_goes_on_to_the_same_bytes_with_its_copy_of_the_file(tmp_path, recor
     assert (tmp_path / "part/frame.csv").read_text() == RECORD
     assert part.time < again.time == whole.time
     assert again.particles.position.tobytes() == whole.particles.position.tobytes()
+
+
+ROLL = {"frame": {"type": "roll", "amplitude": 4.0, "period": 0.3}, "tank.lid": True}
+CALLS = {
+    name: ["steps", {"tank.length": 0.08, **ROLL, **changes}, 20, 4e-4]
+    for name, changes in {
+        "2-D": {}, "3-D": {"tank.width": 0.02, "tank.periodic": True},
+    }.items()
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def on_two_ranks():
+    """Outputs of all calls, which take one start."""
+    return dict(zip(CALLS, start("each", 2, list(CALLS.values())), strict=True))
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_ranks_give_the_same_bits_in_a_rolling_tank_as_one(on_two_ranks, name):
+    assert on_two_ranks[name] == alone(*CALLS[name])
 
 
 # One's own
