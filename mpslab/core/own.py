@@ -1,7 +1,7 @@
 """What a user adds to a run from Python, known by its name: "module:name" of an object."""
 
-import importlib
 import json
+import pkgutil
 import sys
 
 
@@ -22,13 +22,13 @@ def find(name):
     Raises
     ------
     ValueError
-        If there is no such module, or nothing of that name in it.
+        If there is no such module on Python's path, or nothing of that name in it.
     """
-    module, _, attribute = name.partition(":")
     try:
-        return getattr(importlib.import_module(module), attribute)
-    except (ImportError, AttributeError) as error:
-        raise ValueError(f"{name!r} cannot be found ({error})") from error
+        return pkgutil.resolve_name(name)
+    except (ImportError, AttributeError, ValueError) as error:
+        reason = " ".join(str(error).split())
+        raise ValueError(f"{name!r} cannot be found ({reason})") from error
 
 
 def to_text(own):

@@ -14,6 +14,7 @@ import csv
 
 import numpy as np
 
+from mpslab.keys import CaseError
 from mpslab.solids.motion import Sine, Table
 
 AXES = {"sway": 0, "heave": 1, "roll": 2}
@@ -47,7 +48,7 @@ def motion_of(frame):
 
     Raises
     ------
-    ValueError
+    CaseError
         If the file cannot be read, or is no such table.
     """
     if frame.type == "file":
@@ -63,19 +64,19 @@ def _read(path):
         with open(path, newline="", encoding="utf-8-sig") as stream:
             rows = [row for row in csv.reader(stream) if row]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise ValueError(f"{where}: cannot be read as a CSV file ({error})") from error
+        raise CaseError(f"{where}: cannot be read as a CSV file ({error})") from error
     names = [cell.partition("[")[0].strip() for cell in rows[0]] if rows else []
     if names[:1] != ["time"] or not set(names[1:]) <= set(COLUMNS) or len(names) != len(set(names)):
-        raise ValueError(
+        raise CaseError(
             f"{where}: heading {','.join(rows[0] if rows else [])!r}: must be time [s] and any of "
             "x [m], z [m] and roll [deg], parted by commas"
         )
     table = np.array([_numbers(row, len(names), where, i) for i, row in enumerate(rows[1:], 2)])
     if len(table) < 3 or len(names) < 2:
-        raise ValueError(f"{where}: must have 3 rows of numbers or more, in 2 columns or more")
+        raise CaseError(f"{where}: must have 3 rows of numbers or more, in 2 columns or more")
     late = np.flatnonzero(np.diff(table[:, 0]) <= 0.0)
     if len(late):
-        raise ValueError(f"{where}, row {late[0] + 3}: time must be above that of the row before")
+        raise CaseError(f"{where}, row {late[0] + 3}: time must be above that of the row before")
     values = np.zeros((len(table), len(COLUMNS)))
     for k, (name, unit) in enumerate(COLUMNS.items()):
         if name in names:
@@ -89,5 +90,5 @@ def _numbers(row, count, where, line):
     except ValueError:
         numbers = []
     if len(numbers) != count or not np.all(np.abs(numbers) < 1e9):
-        raise ValueError(f"{where}, row {line}: {','.join(row)!r} must be {count} finite numbers")
+        raise CaseError(f"{where}, row {line}: {','.join(row)!r} must be {count} finite numbers")
     return numbers
