@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from mpslab import balance, open_run
-from mpslab.piston import make_paddle
 from mpslab.rebalance import load
+from mpslab.solids.piston import make_paddle
 from mpslab.step import slabs_of
 
 METHODS = ("static", "centroid", "optimal")

@@ -17,9 +17,9 @@ from pathlib import Path
 import numpy as np
 
 from mpslab import balance, deflation, filling, geometry, load_case, pressure
-from mpslab.piston import make_paddle
 from mpslab.rebalance import SOLID
 from mpslab.slabs import WIDTH, make_slabs
+from mpslab.solids.piston import make_paddle
 
 HERE = Path(__file__).parent
 DOCS = HERE.parent / "docs"

@@ -1,6 +1,6 @@
 """How many particles a case has, by arithmetic: nothing is laid out, whatever the size.
 
-The columns of the tank are counted as `filling` and `geometry` lay them; of very many, some stand
+The columns of the tank are counted as `filling` and the solids lay them; of very many, some stand
 for all.  The sum is exact but for discs, dips of a staircase, and tanks of very many columns; wall
 that an obstacle covers counts as wall still.
 """
@@ -8,9 +8,8 @@ that an obstacle covers counts as wall still.
 import numpy as np
 
 from mpslab import bed as beds
-from mpslab import filling, gates, obstacles
-from mpslab.filling import effective_length
-from mpslab.geometry import rows_across
+from mpslab import filling
+from mpslab.core.lattice import effective_length, ground, rows_across
 from mpslab.kinds import (
     DUMMY,
     FLUID,
@@ -21,6 +20,7 @@ from mpslab.kinds import (
     PISTON_DUMMY,
     WALL,
 )
+from mpslab.solids import gates, obstacles
 
 MOST_COLUMNS = 10_000  # looked at one by one
 
@@ -38,6 +38,8 @@ def census(case, backmost=0.0):
     rows = rows_across(case)
     behind = np.ceil(-backmost / case.particles.spacing) if case.wavemaker.type != "none" else 0.0
     floor = _floor(case, behind)
+    if case.tank.lid:
+        floor = {kind: floor[kind] + number for kind, number in _lid(case).items()}
     count[FLUID] = _water(case)
     for kind, number in (*floor.items(), *_ends(case).items(), *_gates(case).items()):
         count[kind] += number * rows
@@ -69,7 +71,7 @@ def _columns(case, first, last):
 def _stacked(case, x, top):
     """Solid particles in the columns at x from the bed up to a height, (n,) float64."""
     spacing = case.particles.spacing
-    low, first = filling.ground(case, x)
+    low, first = ground(case, x)
     return np.maximum(np.round((top - low - first) / spacing + 0.5), 0.0)
 
 
@@ -86,7 +88,7 @@ def _water(case):
             for left, right in gates.faces(case):
                 x = x[(x < left) | (x > right)]
             across = round(high[1] / spacing) - round(low[1] / spacing) if case.dim == 3 else 1
-            height = np.maximum(high[2] - filling.ground(case, x, low[2])[0], 0.0) / spacing
+            height = np.maximum(high[2] - ground(case, x, low[2])[0], 0.0) / spacing
             total += share * across * each * height.sum()
     return total
 
@@ -108,6 +110,14 @@ def _floor(case, behind):
     points = beds.extended(case.tank.bed, (behind + layers) * spacing, layers * spacing)
     numbers = [beds.count(points, (k + 0.5) * spacing, spacing) for k in range(layers)]
     return {WALL: numbers[0] - ends, DUMMY: sum(numbers) - numbers[0] + ends}
+
+
+def _lid(case):
+    """Layers of the lid in the section, by kind."""
+    length = round(case.tank.length / case.particles.spacing)
+    layers = case.particles.layers
+    faces = length + 2.0
+    return {WALL: faces, DUMMY: layers * (length + 2.0 * layers) - faces}
 
 
 def _ends(case):
@@ -173,6 +183,6 @@ def _filled(case, low, high):
     """Particles between two corners [spacings] and above the bed."""
     spacing = case.particles.spacing
     x, each = _columns(case, low[0], high[0])
-    ground = np.ceil(beds.elevation(case.tank.bed, x) / spacing - 0.5)
-    stacks = np.maximum(high[2] - np.maximum(ground, low[2]), 0.0)
+    level = np.ceil(beds.elevation(case.tank.bed, x) / spacing - 0.5)
+    stacks = np.maximum(high[2] - np.maximum(level, low[2]), 0.0)
     return each * stacks.sum() * max(high[1] - low[1], 0.0)

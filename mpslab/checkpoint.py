@@ -9,7 +9,7 @@ import numpy as np
 from mpslab.files import needing, replacing
 
 FORMAT = "mpslab checkpoint"
-VERSION = 2
+VERSION = 3
 FIELDS = ("gid", "role", "body", "position", "velocity", "pressure", "number_density", "surface")
 
 

@@ -8,7 +8,8 @@ volume of the water.
 import numpy as np
 
 from mpslab import bed as beds
-from mpslab import gates, obstacles
+from mpslab.core.lattice import between, effective_length, ground, size
+from mpslab.solids import gates, obstacles
 
 # Where a column begins to count, in spacings of volume: rows across the tank differ, and all of
 # them together hold the volume.
@@ -16,11 +17,6 @@ PHASES = (0.125, 0.625, 0.375, 0.875)
 ROUND_OFF = 1e-6  # spacings
 TIGHTEST = 0.75  # spacings from particle to particle in a column
 CLEAR = 0.5 - ROUND_OFF  # spacings from the water to a particle of the lid
-
-
-def effective_length(case):
-    """Length of the tank in whole spacings [m]."""
-    return round(case.tank.length / case.particles.spacing) * case.particles.spacing
 
 
 def filled(case):
@@ -53,30 +49,6 @@ def columns(case, start, end):
     """x of the columns of water in a box [m], a list: those that are in no gate."""
     along = between(case, start[0], min(end[0], effective_length(case)))
     return [x for x in along if not gates.holds(case, x)]
-
-
-def between(case, start, end):
-    """x of the columns of the lattice between two places [m]."""
-    spacing = case.particles.spacing
-    return (np.arange(round(start / spacing), round(end / spacing)) + 0.5) * spacing
-
-
-def ground(case, x, bottom=-np.inf):
-    """Where columns begin, and how far above it the first particle is at the least, (n,) [m] each.
-
-    Parameters
-    ----------
-    x : (n,) float64 [m]
-    bottom : float [m]
-        Lower end of the box that is filled; above the bed, that is where columns begin.
-    """
-    spacing, bed = case.particles.spacing, case.tank.bed
-    level = beds.elevation(bed, x)
-    lean = np.sqrt(1.0 + beds.slope(bed, x) ** 2)
-    if case.particles.bed == "staircase":
-        level, lean = np.ceil(level / spacing - 0.5) * spacing, np.ones_like(lean)
-    floats = bottom > level
-    return np.where(floats, bottom, level), 0.5 * spacing * np.where(floats, 1.0, lean)
 
 
 def _box(case, start, end, phase):
@@ -169,7 +141,7 @@ def laid(case, start, end):
 def _around(case, low, high):
     """Sites in and around a box of water, with its surface between two layers: (n, 3) [m]."""
     spacing, layers = case.particles.spacing, case.particles.layers
-    length, width = obstacles.size(case.tank, spacing)
+    length, width = size(case.tank, spacing)
     first = max(round(low[0] / spacing) - layers, 0)
     last = min(round(high[0] / spacing) + layers, length)
     edge = width * spacing if case.dim == 3 else 0.0

@@ -1,22 +1,17 @@
-"""Initial particles of a case: water, bed, end walls, piston, gates, side walls, obstacles.
+"""Initial particles of a case: its water, and those of its solids.
 
-The cross-section (x, z) is laid out first and then repeated across the tank.  Water particles
-stand half a spacing off every boundary, wall particles half a spacing behind it.  A kind is here a
-pair: role and body.
+Water particles stand half a spacing off every boundary, wall particles half a spacing behind it.
 """
 
 import numpy as np
 import scipy
 
-from mpslab import bed as beds
-from mpslab import filling, gates, obstacles
-from mpslab.filling import effective_length
-from mpslab.particles import FACE, FILLER, FLUID, PISTON, TANK, WATER, make_particles
-
-
-def rows_across(case):
-    """Number of particles across the tank; 1 in 2-D."""
-    return max(round(case.tank.width / case.particles.spacing), 1)
+from mpslab import filling
+from mpslab.core.lattice import at_row, effective_length, rows_across
+from mpslab.forcings import forcings_of, total
+from mpslab.particles import FIRST_SOLID, FLUID, WATER, make_particles
+from mpslab.solids import obstacles
+from mpslab.solids.collection import solids_of
 
 
 def period(case):
@@ -40,7 +35,7 @@ def extent(case, backmost=0.0):
     return -behind, effective_length(case) + beyond
 
 
-def build_particles(case, backmost=0.0):
+def build_particles(case, backmost=0.0, own=()):
     """Particles of a case at rest, with hydrostatic pressure.
 
     Parameters
@@ -48,32 +43,40 @@ def build_particles(case, backmost=0.0):
     case : mpslab.parameters.Case
     backmost : float [m]
         Least displacement of the piston; the bed reaches that far behind it.
+    own : sequence of solids
+        Beside those of the case.
     """
     spacing = case.particles.spacing
-    solid, kind = _solid_section(case, backmost)
-    position, kinds = _repeat_across(case, solid, kind, backmost)
-    if case.obstacle:
-        position, kinds = _with_obstacles(case, position, kinds)
-    water = kinds[:, 0] == FLUID
-    position[water] += _jitter(case, np.count_nonzero(water))
+    water = _water(case, own)
+    parts = [(water, np.full(len(water), FLUID), WATER)]
+    for body, solid in solids_of(case, backmost=backmost, own=own).bodies.items():
+        parts.append((*solid.particles(case), body))
+    position = np.vstack([place for place, _, _ in parts])
+    role = np.concatenate([role for _, role, _ in parts])
+    body = np.concatenate([np.full(len(place), body) for place, _, body in parts])
     cell = np.floor(position / spacing + 1e-6)
     order = np.lexsort((position[:, 2], cell[:, 1], cell[:, 0]))
-    particles = make_particles(position[order], *kinds[order].T)
+    particles = make_particles(position[order], role[order], body[order])
     _set_hydrostatic(case, particles)
-    if case.obstacle or case.gate:
+    if np.any(body >= FIRST_SOLID):
         obstacles.press(case, particles)
     return particles
 
 
-def labels(n, role, body=TANK):
-    """Role and body of n particles, (n, 2) int16; each a number, or (n,)."""
-    return np.column_stack([np.broadcast_to(what, n) for what in (role, body)]).astype(np.int16)
-
-
-def _with_obstacles(case, position, kinds):
-    obstacles.cover(case, position, kinds)
-    body, kind = obstacles.fill(case, position[kinds[:, 0] != FLUID])
-    return np.vstack([position, body]), np.vstack([kinds, kind])
+def _water(case, own):
+    """Water of all rows across the tank, displaced at random by a little: (n, 3) [m]."""
+    spacing, flat = case.particles.spacing, case.dim == 2
+    sections = [filling.section(case, row) for row in range(1 if flat else len(filling.PHASES))]
+    rows = []
+    for row in range(rows_across(case)):
+        y, section = 0.0 if flat else (row + 0.5) * spacing, sections[row % len(sections)]
+        wet = flat | ((section[:, 2] < y) & (y < section[:, 3]))
+        rows.append(at_row(section[wet], y))
+    water = np.vstack(rows)
+    water += _jitter(case, len(water))
+    for solid in own:
+        water = water[~solid.holds(water)]
+    return water
 
 
 def _jitter(case, n):
@@ -82,140 +85,6 @@ def _jitter(case, n):
     if case.tank.width == 0.0:
         move[:, 1] = 0.0
     return move
-
-
-def _stack(case, x, top):
-    """Solid particles of one column, from the bed up, none squeezed in: (n, 2) [m]."""
-    spacing = case.particles.spacing
-    low, first = filling.ground(case, x)
-    first = float(low + first)
-    n = max(round((top - (first - 0.5 * spacing)) / spacing), 0)
-    return np.column_stack([np.full(n, x), first + np.arange(n) * spacing])
-
-
-def _solid_section(case, backmost):
-    """Bed, end walls, piston and gates in the cross-section: (n, 2) [m] and kinds (n, 2)."""
-    layers, spacing = case.particles.layers, case.particles.spacing
-    behind = (layers + np.ceil(-backmost / spacing)) * spacing
-    build = _staircase if case.particles.bed == "staircase" else _smooth_bed
-    floor, floor_kind = build(case, behind)
-    left, left_kind = _end_wall(case, floor, -1)
-    right, right_kind = _end_wall(case, floor, 1)
-    if case.wavemaker.type != "none":
-        left_kind[:, 1] = PISTON
-    plates, plate_kind = _gates(case, floor)
-    kinds = np.vstack([floor_kind, left_kind, right_kind, plate_kind])
-    return np.vstack([floor, left, right, plates]), kinds
-
-
-def _smooth_bed(case, behind):
-    """Layers along the bed, the uppermost of wall particles."""
-    layers, spacing = case.particles.layers, case.particles.spacing
-    points = beds.extended(case.tank.bed, behind, layers * spacing)
-    rows = [beds.layer(points, (k + 0.5) * spacing, spacing) for k in range(layers)]
-    kinds = [labels(len(row), FILLER if k else FACE) for k, row in enumerate(rows)]
-    outside = rows[0][:, 0] > effective_length(case) + spacing
-    if case.wavemaker.type == "none":
-        outside |= rows[0][:, 0] < -spacing
-    kinds[0][outside, 0] = FILLER
-    return np.vstack(rows), np.vstack(kinds)
-
-
-def _staircase(case, behind):
-    """Bed cut out of the lattice, in steps of one spacing (to compare with the smooth bed)."""
-    layers, spacing = case.particles.layers, case.particles.spacing
-    end = effective_length(case)
-    x = filling.between(case, -behind, end + layers * spacing)
-    top = np.ceil(beds.elevation(case.tank.bed, x) / spacing - 0.5)
-    lowest = np.array([top[max(i - layers, 0) : i + layers + 1].min() for i in range(len(x))])
-    high = np.array([top[max(i - 1, 0) : i + 2].min() for i in range(len(x))])
-    rows, kinds = [], []
-    for i, place in enumerate(x):
-        level = np.arange(lowest[i] - layers, top[i])
-        rows.append(np.column_stack([np.full(len(level), place), (level + 0.5) * spacing]))
-        wall = (level >= high[i] - 1) & (place < end + spacing)
-        if case.wavemaker.type == "none":
-            wall &= place > -spacing
-        kinds.append(labels(len(level), np.where(wall, FACE, FILLER)))
-    return np.vstack(rows), np.vstack(kinds)
-
-
-def _end_wall(case, floor, side):
-    """Vertical layers at the seaward (-1) or landward (+1) end, standing on the bed."""
-    spacing, end = case.particles.spacing, effective_length(case)
-    rows, kinds = [], []
-    for k in range(case.particles.layers):
-        x = -(k + 0.5) * spacing if side < 0 else end + (k + 0.5) * spacing
-        stack = _stack(case, x, case.tank.height)
-        rows.append(stack)
-        kinds.append(labels(len(stack), FILLER if k else FACE))
-    wall, kind = np.vstack(rows), np.vstack(kinds)
-    free = _clear(case, wall, floor)
-    return wall[free], kind[free]
-
-
-def _gates(case, floor):
-    """Vertical columns of the gates, standing on the bed: (n, 2) [m] and kinds (n, 2)."""
-    rows, kinds = [np.zeros((0, 2))], [labels(0, FACE)]
-    for number, (low, high) in enumerate(gates.faces(case)):
-        columns = filling.between(case, low, high)
-        for x in columns:
-            rows.append(_stack(case, x, case.tank.height))
-            outer = x in (columns[0], columns[-1])
-            role = FACE if outer else FILLER
-            kinds.append(labels(len(rows[-1]), role, gates.first(case) + number))
-    plates, kind = np.vstack(rows), np.vstack(kinds)
-    free = _clear(case, plates, floor)
-    return plates[free], kind[free]
-
-
-def _clear(case, section, floor):
-    """Which places of a section do not come too close to the bed's particles, (n,) bool."""
-    return scipy.spatial.cKDTree(floor).query(section)[0] > beds.CLOSEST * case.particles.spacing
-
-
-def _repeat_across(case, solid, kind, backmost):
-    """Repeat the cross-section in y; add side walls where the tank has them."""
-    spacing, n = case.particles.spacing, rows_across(case)
-    flat = case.tank.width == 0.0
-    positions, kinds = [], []
-    sections = [filling.section(case, row) for row in range(1 if flat else len(filling.PHASES))]
-    walled = not (flat or case.tank.periodic)
-    layers = case.particles.layers if walled else 0
-    for row in range(-layers, n + layers):
-        y = 0.0 if flat else (row + 0.5) * spacing
-        outside = max(-row, row - n + 1)
-        if outside <= 0:
-            water = sections[row % len(sections)]
-            wet = flat | ((water[:, 2] < y) & (y < water[:, 3]))
-            _add(positions, kinds, water[wet, :2], labels(np.count_nonzero(wet), FLUID, WATER), y)
-            _add(positions, kinds, solid, kind, y)
-        else:
-            side, side_kind = _side_wall(case, solid, kind, outside, backmost)
-            _add(positions, kinds, side, side_kind, y)
-    return np.vstack(positions), np.vstack(kinds)
-
-
-def _side_wall(case, solid, kind, outside, backmost):
-    """One layer of a side wall: the whole section of the tank, and the solids beyond it."""
-    spacing, layers = case.particles.spacing, case.particles.layers
-    behind = np.ceil(-backmost / spacing) * spacing if case.wavemaker.type != "none" else 0.0
-    x = filling.between(case, -behind - layers * spacing, effective_length(case) + layers * spacing)
-    section = np.vstack([_stack(case, place, case.tank.height) for place in x])
-    below = solid[:, 1] < beds.elevation(case.tank.bed, solid[:, 0])
-    below &= kind[:, 1] == TANK
-    floor = solid[below]
-    inside = (section[:, 0] > -behind - spacing) & (
-        section[:, 0] < effective_length(case) + spacing
-    )
-    first = outside == 1
-    faces = np.concatenate([inside, kind[below, 0] == FACE]) & first
-    return np.vstack([section, floor]), labels(len(faces), np.where(faces, FACE, FILLER))
-
-
-def _add(positions, kinds, section, kind, y):
-    positions.append(np.column_stack([section[:, 0], np.full(len(section), y), section[:, 1]]))
-    kinds.append(kind)
 
 
 def _set_hydrostatic(case, particles):
@@ -229,7 +98,8 @@ def _set_hydrostatic(case, particles):
     top = np.full(column.max() + 1, -np.inf)
     np.maximum.at(top, column[fluid], particles.position[fluid, 2] + 0.5 * spacing)
     depth = np.maximum(top[column] - particles.position[:, 2], 0.0)
-    weight = case.fluid.density * case.fluid.gravity
+    down = -total(forcings_of(case), particles, 0.0)[..., 2]
+    weight = case.fluid.density * np.maximum(down, 0.0)
     particles.pressure[:] = np.where(particles.carries_pressure, weight * depth, 0.0)
     if case.water:  # which may float above the bed
         off = scipy.spatial.cKDTree(particles.position[fluid]).query(particles.position)[0]

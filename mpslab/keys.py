@@ -24,8 +24,8 @@ def key(doc, default=dataclasses.MISSING, *, kind="", unit="", name="", **limits
     default : optional
         Left out, the key is required; None marks a number that is filled in when a case is loaded.
     kind : str
-        "number", "integer", "flag", "text", "texts", "numbers", "point" or "points"; left out, it
-        follows from the type of the default.
+        "number", "integer", "flag", "text", "texts", "numbers", "place", "point" or "points"; left
+        out, it follows from the type of the default.
     unit : str
     name : str
         Name in the TOML file, where that is not the name of the attribute.
@@ -187,8 +187,12 @@ def _point(value, metadata, size=3):
     return point
 
 
+def _place(value, metadata):
+    return _point(value, metadata, size=2)
+
+
 def _points(value, metadata):
-    return tuple(_point(point, metadata, size=2) for point in _list(value))
+    return tuple(_place(point, metadata) for point in _list(value))
 
 
 def _list(value):
@@ -204,6 +208,7 @@ _READERS = {
     "text": _text,
     "texts": _texts,
     "numbers": _numbers,
+    "place": _place,
     "point": _point,
     "points": _points,
 }
@@ -215,6 +220,7 @@ _NOUNS = {
     "text": "text of one line",
     "texts": "a list of different words",
     "numbers": "a list of numbers",
+    "place": "two numbers [x, z]",
     "point": "three numbers [x, y, z]",
     "points": "a list of points [x, z], each number",
 }

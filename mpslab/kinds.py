@@ -15,13 +15,16 @@ KIND_NAMES = ("fluid", "wall", "dummy", "piston", "piston dummy", "gate",
 
 def kinds_of(case, particles):
     """Kinds of the particles of a case, (n,) int8."""
-    return _table(case)[particles.body, particles.role]
+    table = _table(case)
+    return table[np.minimum(particles.body, len(table) - 1), particles.role]
 
 
 def _table(case):
-    """Kind by body and role, (bodies, 3) int8."""
-    table = np.full((FIRST_SOLID + len(case.obstacle) + len(case.gate), 3), FLUID, np.int8)
+    """Kind by body and role, (bodies, 3) int8; the last row is that of the user's own solids."""
+    gates = FIRST_SOLID + len(case.obstacle)
+    after = gates + len(case.gate)
+    table = np.full((after + 1, 3), FLUID, np.int8)
     table[TANK:, FACE:] = WALL, DUMMY
     table[bodies.PISTON, FACE:] = PISTON, PISTON_DUMMY
-    table[FIRST_SOLID + len(case.obstacle) :, FACE:] = GATE, GATE_DUMMY
+    table[gates:after, FACE:] = GATE, GATE_DUMMY
     return table

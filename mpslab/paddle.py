@@ -45,6 +45,22 @@ class Paddle:
     facts: dict = field(default_factory=dict)
     doubts: tuple = ()
 
+    def advance(self, time, dt, readings):
+        """Decide on the move from time to time + dt [s]; a motion known beforehand has none to.
+
+        Parameters
+        ----------
+        readings : dict of str to float
+            What the gauges read last, by name [m]; the same on all ranks.
+        """
+
+    def state(self):
+        """What a checkpoint keeps of it, a dict; nothing of a motion known beforehand."""
+        return {}
+
+    def restore(self, state):
+        """Take back what `state` gave."""
+
 
 def from_motion(
     motion: Callable, times, height: float, note: str, whole=None, facts=None, doubts=()

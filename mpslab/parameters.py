@@ -35,6 +35,7 @@ class Tank:
         low=0,
     )
     periodic: bool = key("true: periodic across y; false: side walls", False)
+    lid: bool = key("true: closed on top, at tank.height; not with a wavemaker or a gate", False)
 
     def __post_init__(self):
         check_table(self)
@@ -100,6 +101,8 @@ class Water(Box):
 class Obstacle(Box):
     """A solid box that stands in the tank."""
 
+    name: str | None = key("its name; obstacle-1 and so on if left out", None, **NAME)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Gate:
@@ -108,6 +111,7 @@ class Gate:
     x: float = key("place of the face towards the wavemaker", unit="m", above=0)
     speed: float = key("speed at which it is lifted", unit="m/s", above=0, high=1e3)
     opens: float = key("time at which it begins to rise", 0.0, unit="s", low=0)
+    name: str | None = key("its name; gate-1 and so on if left out", None, **NAME)
 
     def __post_init__(self):
         check_table(self)
@@ -147,7 +151,12 @@ class Wavemaker:
     )
     height: float = key("wave height; 0 where a type needs none", 0.0, unit="m", low=0)
     period: float = key("wave period; 0 where a type needs none", 0.0, unit="s", low=0)
-    stroke: float = key("stroke of the piston; 0 to follow from height", 0.0, unit="m", low=0)
+    stroke: float = key(
+        "stroke of the piston; 0 to follow from height; of a function the farthest it goes",
+        0.0,
+        unit="m",
+        low=0,
+    )
     first: str = key(
         "which way the piston goes first; backward with linear and second_order only",
         "forward",
@@ -159,12 +168,45 @@ class Wavemaker:
         "",
         copy="wavemaker.csv",
     )
+    function: str = key(
+        'displacement(t) of one\'s own, as "module:name" of what Python can import; "" for none', ""
+    )
     offset: float = key("time of the file at t = 0 of the run", 0.0, unit="s", low=-1e9, high=1e9)
     smoothing: float = key(
         "period of wiggles in the file that a spline halves; it takes out shorter ones, 0 for none",
         0.0,
         unit="s",
         low=0,
+    )
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Frame:
+    """Motion of the tank itself: the run is in the tank, and inertia acts on its water."""
+
+    type: str = key(
+        "a sine of sway (along x), heave (up and down) or roll (about an axis across, positive "
+        "where it lifts the far end); the record of a file; none for a tank at rest",
+        "none",
+        choices=("none", "sway", "heave", "roll", "file"),
+    )
+    amplitude: float = key("amplitude of the sine", 0.0, unit="m, of roll deg", low=0, high=1e3)
+    period: float = key("period of the sine", 0.0, unit="s", low=0)
+    start: float = key("time in which the motion fades in; 0 for none", 0.0, unit="s", low=0)
+    center: tuple | None = key(
+        "axis of the roll [x, z]; below the middle of the tank, at z = 0, if left out",
+        None,
+        kind="place",
+        unit="m",
+    )
+    file: str = key(
+        "CSV file with a heading: time [s] and any of x [m], z [m] and roll [deg]; "
+        '"" for none',
+        "",
+        copy="frame.csv",
     )
 
     def __post_init__(self):
@@ -311,6 +353,7 @@ TABLES = {
     "fluid": Fluid,
     "initial": Initial,
     "wavemaker": Wavemaker,
+    "frame": Frame,
     "particles": Particles,
     "scheme": Scheme,
     "time": Time,
@@ -339,6 +382,7 @@ class Case:
     fluid: Fluid = field(default_factory=Fluid)
     initial: Initial = field(default_factory=Initial)
     wavemaker: Wavemaker = field(default_factory=Wavemaker)
+    frame: Frame = field(default_factory=Frame)
     scheme: Scheme = field(default_factory=Scheme)
     parallel: Parallel = field(default_factory=Parallel)
     output: Output = field(default_factory=Output)

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from mpslab.filling import effective_length
-from mpslab.geometry import rows_across
+from mpslab.core.lattice import effective_length, rows_across
 from mpslab.particles import FIRST_SOLID, PISTON, TANK
 
 
@@ -40,10 +39,4 @@ def _between(case, particles):
 
 def _solids(case):
     """Names of obstacles and gates, in the order of their bodies."""
-    found = [("obstacle", box) for box in case.obstacle] + [("gate", gate) for gate in case.gate]
-    count = {"obstacle": 0, "gate": 0}
-    named = []
-    for kind, solid in found:
-        count[kind] += 1
-        named.append(getattr(solid, "name", "") or f"{kind}-{count[kind]}")
-    return tuple(named)
+    return tuple(solid.name for solid in (*case.obstacle, *case.gate))

@@ -5,24 +5,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mpslab import (
-    balance,
-    breaking,
-    filling,
-    gates,
-    geometry,
-    instruments,
-    memory,
-    obstacles,
-    waves,
-)
+from mpslab import balance, breaking, filling, instruments, memory, waves
 from mpslab import bed as beds
 from mpslab.cases.doubts import warnings
 from mpslab.cases.sizes import sizes
 from mpslab.census import census
+from mpslab.core.lattice import effective_length, rows_across
 from mpslab.kinds import KIND_NAMES
-from mpslab.piston import make_paddle
 from mpslab.preflight_text import sections
+from mpslab.solids import gates, obstacles
+from mpslab.solids.piston import make_paddle
 from mpslab.step import slabs_of, solver_of
 
 # Measured on one core of a 2023 server processor with the recipe "standard".
@@ -137,12 +129,12 @@ def check_ranks(case, ranks):
 
 def _particles(case, count):
     spacing = case.particles.spacing
-    across = geometry.rows_across(case) * spacing if case.tank.width > 0.0 else 0.0
+    across = rows_across(case) * spacing if case.tank.width > 0.0 else 0.0
     return {
         "particles": dict(zip(KIND_NAMES, np.round(count).astype(int), strict=True)),
         "spacing [m]": spacing,
         "spacings_over_depth": case.tank.deepest / spacing,
-        "tank_length [m]": geometry.effective_length(case),
+        "tank_length [m]": effective_length(case),
         "tank_width [m]": across,
         "laid_out": {**_water(case), **_obstacles(case), **_gates(case)},
     }

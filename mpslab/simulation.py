@@ -1,5 +1,6 @@
 """The run: choose a time step, advance, write down."""
 
+import json
 import time as clock
 from collections import Counter
 from contextlib import suppress
@@ -20,16 +21,18 @@ from mpslab import (
 from mpslab.actions import Actions
 from mpslab.cases import dumps
 from mpslab.communicator import on_root
+from mpslab.core import own
 from mpslab.domain import world
 from mpslab.instruments import with_own
 from mpslab.keys import require_choice
 from mpslab.memory import keep_freed
 from mpslab.output import RunFolder, take
 from mpslab.particles import ParticleSet, no_particles
-from mpslab.piston import Piston, make_paddle
 from mpslab.rebalance import Rebalancer
 from mpslab.record import Record
 from mpslab.schedule import due
+from mpslab.solids.collection import solids_of
+from mpslab.solids.piston import make_paddle
 from mpslab.step import advance, make_flow
 from mpslab.watch import RunFailed, check_finite, check_lost, check_step, find_lost
 
@@ -49,6 +52,9 @@ class Simulation:
         is forgotten.
     instruments : sequence of mpslab.Instrument, optional
         What it reads besides the instruments of the case (docs/python.md).
+    forcings, solids : sequence, optional
+        One's own, beside those of the case; `mpslab.forcings` and `mpslab.solids` say what they
+        are. A run that goes on finds them again by the names of module and object.
 
     Attributes
     ----------
@@ -67,12 +73,13 @@ class Simulation:
     >>> run.gauges["time"], run.particles.position
     """
 
-    def __init__(self, case, out=None, instruments=()):
+    def __init__(self, case, out=None, instruments=(), forcings=(), solids=()):
         reading = with_own(case, instruments)
         if not (out is None or isinstance(out, RunFolder)):
             out = take(RunFolder.create, out)
         try:
             files = inputs.of(case)
+            self._own = {"forcings": tuple(forcings), "solids": tuple(solids)}
             flow = self._lay_out(case)
         except BaseException:
             if out is not None:
@@ -89,14 +96,23 @@ class Simulation:
         """The water of a case, settled."""
         paddle = make_paddle(case)
         backmost = paddle.backmost if paddle else 0.0
-        flow = _flow(case, paddle, lambda: geometry.build_particles(case, backmost))
+        solids = self._own["solids"]
+        flow = self._flow_of(
+            case, paddle, lambda: geometry.build_particles(case, backmost, solids)
+        )
         self.at_start = sum(flow.domain.from_all(int(np.count_nonzero(flow.particles.fluid))))
         settling.settle(flow)
         initial.set_velocity(case, flow.particles, flow.domain.total)
         return flow
 
+    def _flow_of(self, case, paddle, make):
+        """The flow of the particles that `make` gives on rank 0: no other holds the whole tank."""
+        particles = on_root(world(), make) or no_particles()
+        solids = solids_of(case, paddle, self._own["solids"])
+        return make_flow(case, particles, solids, geometry.period(case), self._own["forcings"])
+
     @classmethod
-    def resume(cls, folder, changes=None, instruments=()):
+    def resume(cls, folder, changes=None, instruments=(), forcings=None, solids=None):
         """Go on with the run in a folder from its last checkpoint.
 
         Parameters
@@ -107,31 +123,37 @@ class Simulation:
             told in `mpslab.restart`.
         instruments : sequence of mpslab.Instrument, optional
             Those that the run began with.
+        forcings, solids : sequence, optional
+            One's own that the run began with; left out, they are found by their names.
 
         Raises
         ------
         ValueError
             If the folder holds no run, or another run has it, its checkpoint is damaged, an input
             file is not what it was, the case differs from that of the checkpoint in what cannot
-            change, or an instrument or a model of the user's own is not there again.
+            change, or an instrument, a model, a forcing or a solid of the user's own is not there
+            again.
         """
         folder = take(RunFolder.reopen, folder)
         try:
-            return cls._resumed(folder, changes, instruments)
+            given = {"forcings": forcings, "solids": solids}
+            return cls._resumed(folder, changes, instruments, given)
         except BaseException:
             folder.let_go()
             raise
 
     @classmethod
-    def _resumed(cls, folder, changes, instruments):
+    def _resumed(cls, folder, changes, instruments, given):
         found = restart.look(folder, changes, instruments)
         case, state = found.case, found.state
         reading = with_own(case, instruments)
-        flow = _flow(
+        self = cls.__new__(cls)
+        self._own = own.again(state["own"], given)
+        flow = self._flow_of(
             case, make_paddle(case), lambda: ParticleSet(**checkpoint.read(folder.checkpoint)[0])
         )
-        flow.piston.rest, flow.piston.bed = state["piston_rest"], state["piston_bed"]
-        self = cls.__new__(cls)
+        flow.solids.restore(state)
+        flow.readings.update(json.loads(state["readings"]))
         self._set_up(flow, folder, found.inputs, reading, instruments)
         self.step, self.dt, self.lost = state["step"], state["dt"], state["lost"]
         self.at_start = state["at_start"]
@@ -339,7 +361,7 @@ class Simulation:
 
     def _take_out_lost(self):
         particles = self.particles
-        lost = find_lost(self.case, particles, self._flow.piston.face(self.time))
+        lost = find_lost(self.case, particles, self._flow.solids.face(self.time))
         self._flow.done["leaving"] = lost
         sides = [row[-1] for row in self._record.read("lost").get("lost", ())]
         self.lost += len(sides)
@@ -364,8 +386,9 @@ class Simulation:
             "dt": self.dt,
             "lost": self.lost,
             "at_start": self.at_start,
-            "piston_rest": self._flow.piston.rest,
-            "piston_bed": self._flow.piston.bed,
+            **self._flow.solids.state(),
+            "readings": json.dumps(self._flow.readings),
+            "own": own.to_text(self._own),
             "case": self._text,
             "inputs": self._files,
             "outside": self._outside,
@@ -385,13 +408,6 @@ class Simulation:
             failure.add_note(f"The state could not be written to failed.h5 ({error.strerror})")
         with suppress(OSError):
             self._record.write_run(self.outcome, self.reason)
-
-
-def _flow(case, paddle, make):
-    """The flow of the particles that `make` gives on rank 0: no other holds the whole tank."""
-    particles = on_root(world(), make) or no_particles()
-    piston = Piston(particles, paddle, case.particles.spacing)
-    return make_flow(case, particles, piston, geometry.period(case))
 
 
 def _ending(error):

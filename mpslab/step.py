@@ -6,13 +6,14 @@ from types import ModuleType
 
 import numpy as np
 
-from mpslab import correction, friction, gates, geometry, plugins, pressure, surface, walls
+from mpslab import correction, friction, geometry, plugins, pressure, surface, walls
 from mpslab.domain import Domain
+from mpslab.forcings import forcings_of, total
 from mpslab.kernels import density
 from mpslab.neighbors import NeighborList
 from mpslab.particles import ParticleSet, on_axes
-from mpslab.piston import Piston
 from mpslab.slabs import make_slabs
+from mpslab.solids.collection import Solids
 from mpslab.stencil import Stencil, make_stencil
 
 LAYERS = 20  # of water, up to which the weight of a density error does not depend on them
@@ -28,10 +29,12 @@ class Flow:
     case : mpslab.parameters.Case
     particles : ParticleSet
         Those that this rank owns; within a step also its ghosts.
-    piston : Piston
+    solids : Solids
     stencil, laplacian_stencil : Stencil
         Of gradient and number density, and of the Laplacian.
     domain : Domain
+    forcings : tuple
+        Of the case, and the user's own.
     neighbors : NeighborList
         Where the pressure acted last.
     correction : (n, 6) float64 or None
@@ -47,7 +50,7 @@ class Flow:
 
     case: object
     particles: ParticleSet
-    piston: Piston
+    solids: Solids
     stencil: Stencil
     laplacian_stencil: Stencil
     domain: Domain
@@ -56,6 +59,7 @@ class Flow:
     solver: ModuleType
     pair_terms: tuple
     stabilisers: tuple
+    forcings: tuple
     neighbors: NeighborList = field(default_factory=NeighborList)
     correction: np.ndarray | None = None
     time: float = 0.0
@@ -86,17 +90,19 @@ class Flow:
         return wanted or self.case.scheme.smagorinsky > 0.0
 
 
-def make_flow(case, particles, piston, width, comm=None):
+def make_flow(case, particles, solids, width, forcings=(), comm=None):
     """Load the models that a case names.
 
     Parameters
     ----------
     particles : ParticleSet
         All particles of the tank, on rank 0; the flow keeps those of this rank.
-    piston : Piston
-        Of these particles, on rank 0; all ranks get it.
+    solids : Solids
+        Of this tank; on rank 0 they see all particles before these are shared out.
     width : float [m]
         Period across the tank, 0 when not periodic.
+    forcings : sequence of forcings
+        Beside those of the case.
     comm : communicator, optional
         As for `mpslab.domain.Domain`.
 
@@ -109,13 +115,14 @@ def make_flow(case, particles, piston, width, comm=None):
     dim = 2 if case.tank.width == 0.0 else 3
     stencil = make_stencil(dim, spacing, scheme.effective_radius, width)
     laplacian_stencil = make_stencil(dim, spacing, scheme.laplacian_radius, width)
-    domain = Domain(slabs_of(case, piston.paddle), comm)
+    paddle = solids.piston.paddle if solids.piston else None
+    domain = Domain(slabs_of(case, paddle), comm)
     solver = solver_of(case, domain.size)
-    piston.share_out(domain.comm)
+    solids.begin(particles, domain.comm)
     return Flow(
         case=case,
         particles=domain.take_part(particles, case.parallel.balance),
-        piston=piston,
+        solids=solids,
         stencil=stencil,
         laplacian_stencil=laplacian_stencil,
         domain=domain,
@@ -124,6 +131,7 @@ def make_flow(case, particles, piston, width, comm=None):
         solver=solver,
         pair_terms=plugins.load("laplacians", scheme.laplacian).pair_terms(laplacian_stencil),
         stabilisers=tuple(plugins.load("stabilisers", name) for name in scheme.stabiliser),
+        forcings=forcings_of(case, forcings),
     )
 
 
@@ -186,7 +194,8 @@ def advance(flow, dt):
         _add_viscosity(flow, dt)
         _stabilise(flow, "predicted", particles.position, dt)
         graded = find_surface(flow)
-    pull = walls.pull(particles, before, flow.case.fluid.gravity, dt)
+    moving = flow.solids.accelerates(particles)
+    pull = walls.pull(particles, before, force_on(flow, dt), dt, moving)
     with watch.phase("assembly"):
         system, rows = _assemble(flow, graded, pull, dt)
     with watch.phase("solve"):
@@ -201,23 +210,25 @@ def advance(flow, dt):
 
 
 def _predict(flow, dt):
-    """u' = u + g dt; with projection "predicted" also r* = r + u' dt, and the piston's new place.
+    """u' = u + f dt with the forcings f; with projection "predicted" also r* = r + u' dt.
+
+    With that projection the solids are at their new places from here on.
 
     The projection decides the damping.  In a wave of frequency w the pressure at r* takes away
     (w dt)^2/2 of the amplitude in each step; at the positions of the start it takes nothing.
     """
     particles = flow.particles
-    flow.piston.push(particles, flow.time, dt)
-    gates.push(flow.case, particles, flow.time, dt)
-    particles.velocity[:, 2] -= flow.case.fluid.gravity * dt * particles.fluid
+    flow.solids.advance(flow.time, dt, flow.readings)
+    flow.solids.push(particles, flow.time, dt)
+    particles.velocity += dt * force_on(flow, dt) * on_axes(particles.fluid)
     if flow.case.scheme.projection == "predicted":
         particles.position += dt * particles.velocity * on_axes(particles.fluid)
-        _move_solids(flow, dt)
+        flow.solids.move(particles, flow.time, dt)
 
 
-def _move_solids(flow, dt):
-    flow.piston.move(flow.particles, flow.time + dt)
-    gates.move(flow.case, flow.particles, flow.time, dt)
+def force_on(flow, dt):
+    """Acceleration of the particles by the forcings in the middle of a step, (3,) or (n, 3)."""
+    return total(flow.forcings, flow.particles, flow.time + 0.5 * dt)
 
 
 def find_neighbors(flow):
@@ -316,7 +327,7 @@ def _correct(flow, start, dt):
     moved = start + dt * particles.velocity
     np.copyto(particles.position, moved, where=on_axes(particles.fluid))
     if flow.case.scheme.projection == "start":
-        _move_solids(flow, dt)
+        flow.solids.move(particles, flow.time, dt)
     _stabilise(flow, "corrected", before, dt)
     if flow.stencil.width > 0.0:
         particles.position[:, 1] %= flow.stencil.width

@@ -1,9 +1,10 @@
 """Walls whose pressure is extrapolated from the water, option ``scheme.walls = "extrapolated"``.
 
-Between a water particle i and a solid one j the pressure differs by rho (g - a_j) . r_ij, with a_j
-the acceleration of the wall: the Neumann condition, pair by pair (Adami, Hu & Adams 2012).  It
-holds still water exactly.  Wall particles as unknowns (``"solved"``) do not: their own rows see
-water on one side only, and give the bed half the pressure difference of a layer.
+Between a water particle i and a solid one j the pressure differs by rho (f - a_j) . r_ij, with a_j
+the acceleration of the wall and f that of the forcings, such as gravity: the Neumann condition,
+pair by pair (Adami, Hu & Adams 2012).  It holds still water exactly.  Wall particles as unknowns
+(``"solved"``) do not: their own rows see water on one side only, and give the bed half the pressure
+difference of a layer.
 """
 
 import numpy as np
@@ -12,25 +13,26 @@ from mpslab.kernels import walls as kernels
 from mpslab.particles import FACE, FILLER, FLUID, on_axes
 
 
-def pull(particles, before, gravity, dt):
-    """g - a of every particle, a being the acceleration of the piston, (n, 3) [m/s2].
-
-    Gates rise at a constant speed; the jump of it as they open is left out.
+def pull(particles, before, force, dt, moving):
+    """f - a of every particle, a being the acceleration of the solid, (n, 3) [m/s2].
 
     Parameters
     ----------
     before : (n, 3) float64 [m/s]
         Velocities at the start of the step; those of the particles are the new ones for walls.
+    force : (3,) or (n, 3) float64 [m/s2]
+        Sum of the forcings f, such as gravity.
+    moving : (n,) bool
+        Particles of solids whose acceleration the water feels.
     """
     out = np.zeros_like(before)
-    moving = particles.moves_with_piston
     out[moving] = (before[moving] - particles.velocity[moving]) / dt
-    out[:, 2] -= gravity
+    out += force
     return out
 
 
 def predicted_velocity(particles, pull_, dt):
-    """u* of all particles: solids, too, before the pressure acts, u* = u_wall + (g - a) dt."""
+    """u* of all particles: solids, too, before the pressure acts, u* = u_wall + (f - a) dt."""
     return particles.velocity + dt * pull_ * on_axes(particles.role != FLUID)
 
 

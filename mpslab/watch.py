@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mpslab import obstacles
-from mpslab.geometry import effective_length, rows_across
+from mpslab.core.lattice import effective_length, rows_across
+from mpslab.solids import obstacles
 
 MOST_LOST = 1e-3  # of the fluid particles at the start
 FEW_LOST = 5  # are borne by any run
@@ -49,6 +49,8 @@ def find_lost(case, particles, face):
     sides += [(f"behind {wall}", out & ~high) for wall, out in walls]
     bed = case.tank.bed_height(position[:, 0])
     sides.append(("below the bed", position[:, 2] < bed - spacing))
+    if case.tank.lid:
+        sides.append(("through the lid", position[:, 2] > case.tank.height + 2.0 * spacing))
     if case.obstacle:
         sides.append(("into an obstacle", obstacles.deep_inside(case, position) >= 0))
     found, seen = [], ~particles.fluid

@@ -8,8 +8,8 @@ import numpy as np
 
 from mpslab import balance, load_case, vtkhdf
 from mpslab.kinds import FLUID
-from mpslab.piston import make_paddle
 from mpslab.rebalance import load
+from mpslab.solids.piston import make_paddle
 from mpslab.step import slabs_of
 from mpslab.tables import read_table
 from paper_figures.measures import measure

@@ -12,7 +12,8 @@ from mpslab.columns import PHASE_COLUMNS, STEP_COLUMNS
 from mpslab.kernels import density
 from mpslab.neighbors import NeighborList
 from mpslab.particles import make_particles
-from mpslab.piston import Piston, make_paddle
+from mpslab.solids.collection import solids_of
+from mpslab.solids.piston import make_paddle
 from mpslab.stencil import make_stencil
 from mpslab.step import advance, make_flow
 
@@ -52,8 +53,7 @@ def flow_of(case, keep=None):
     particles = geometry.build_particles(case, paddle.backmost if paddle else 0.0)
     if keep is not None:
         particles = particles.take(keep(particles))
-    piston = Piston(particles, paddle, case.particles.spacing)
-    return make_flow(case, particles, piston, geometry.period(case))
+    return make_flow(case, particles, solids_of(case, paddle), geometry.period(case))
 
 
 def run(flow, steps, dt):

@@ -13,11 +13,11 @@ FLOORS = {
     "headings panels catalogue scenes actions",
     4: "step timestep settling",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
-    "deflation conjugate_gradient piston geometry filling correction obstacles "
-    "gates friction census instruments gauges diagnostics parts reaction",
+    "deflation conjugate_gradient solids forcings geometry filling correction friction census "
+    "instruments gauges diagnostics parts reaction",
     2: "balance communicator headcount domain rebalance",
     1: "particles kinds neighbors stencil sparse slabs parameters scheme keys plugins bed paddle "
-    "waves breaking stopwatch files journal lock tables series schedule memory columns",
+    "waves breaking stopwatch files journal lock tables series schedule memory columns core",
     0: "kernels",
 }
 FLOOR_OF = {name: floor for floor, names in FLOORS.items() for name in names.split()}

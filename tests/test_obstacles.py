@@ -5,12 +5,13 @@ import pytest
 from scipy.spatial import cKDTree
 from tanks import CLASSIC, closest, flow_of, make_case, number_density_over_n0, run
 
-from mpslab import geometry, load_case, obstacles
+from mpslab import geometry, load_case
 from mpslab.gauges import probe, surface_elevation
 from mpslab.keys import CaseError
 from mpslab.particles import FACE, FILLER, FLUID, make_particles
-from mpslab.piston import make_paddle
 from mpslab.preflight import preflight
+from mpslab.solids import obstacles
+from mpslab.solids.piston import make_paddle
 from mpslab.watch import find_lost
 
 D0, WEIGHT = 0.002, 1000.0 * 9.81

@@ -5,9 +5,11 @@ import pytest
 from tanks import flow_of, make_case
 
 from mpslab import geometry
+from mpslab.communicator import Alone
 from mpslab.paddle import from_motion, sample_times
 from mpslab.particles import FACE, FILLER, FLUID
-from mpslab.piston import Piston, make_paddle
+from mpslab.solids.collection import solids_of
+from mpslab.solids.piston import make_paddle
 
 D0 = 0.002
 STROKE, PERIOD = 0.02, 0.5
@@ -32,7 +34,14 @@ def tank_of(path):
     case = make_case({"tank.length": 0.1, "wavemaker.type": "still"})
     paddle = from_motion(path, sample_times(1.0, PERIOD), 0.0, "drawn")
     particles = geometry.build_particles(case, paddle.backmost)
-    return particles, Piston(particles, paddle, D0), paddle
+    return particles, begun(case, paddle, particles), paddle
+
+
+def begun(case, paddle, particles):
+    """The solids of a case, of these particles."""
+    solids = solids_of(case, paddle)
+    solids.begin(particles, Alone())
+    return solids
 
 
 @pytest.mark.parametrize("time", [0.0, 0.1, 0.3, 0.7])
@@ -41,7 +50,7 @@ def test_piston_stands_where_the_paddle_is_after_the_step(tank, time):
     rest = particles.position.copy()
     moving = particles.moves_with_piston
     piston.push(particles, time, 0.01)
-    piston.move(particles, time + 0.01)
+    piston.move(particles, time, 0.01)
     shift = particles.position - rest
     np.testing.assert_allclose(shift[moving, 0], paddle.displacement(time + 0.01), atol=1e-15)
     assert np.all(shift[moving, 1:] == 0.0)
@@ -53,10 +62,10 @@ def test_velocity_is_that_of_the_move(tank):
     particles, piston, _ = tank
     moving, dt = particles.moves_with_piston, 0.003
     piston.push(particles, 0.1, dt)
-    piston.move(particles, 0.1 + dt)
+    piston.move(particles, 0.1, dt)
     before = particles.position[moving, 0].copy()
     piston.push(particles, 0.1 + dt, dt)
-    piston.move(particles, 0.1 + dt + dt)
+    piston.move(particles, 0.1 + dt, dt)
     np.testing.assert_allclose(
         particles.velocity[moving, 0], (particles.position[moving, 0] - before) / dt, rtol=1e-9
     )
@@ -70,7 +79,7 @@ def test_position_has_no_drift_over_many_small_steps(tank):
     rest = particles.position[particles.moves_with_piston, 0].copy()
     for k in range(1000):
         piston.push(particles, 0.001 * k, 0.001)
-        piston.move(particles, 0.001 * k + 0.001)
+        piston.move(particles, 0.001 * k, 0.001)
     np.testing.assert_allclose(
         particles.position[particles.moves_with_piston, 0], rest, atol=1e-12
     )  # fmt: skip
@@ -88,7 +97,7 @@ def test_bed_behind_the_face_carries_no_pressure_and_comes_back():
     floor = role == FACE
     particles.pressure[:] = 5.0
     piston.push(particles, 0.0, 0.5 * PERIOD)
-    piston.move(particles, 0.0 + 0.5 * PERIOD)
+    piston.move(particles, 0.0, 0.5 * PERIOD)
     covered = floor & (particles.position[:, 0] < STROKE - 0.75 * D0)
     assert np.count_nonzero(covered) >= STROKE / D0 - 1
     assert np.all(particles.role[covered] == FILLER)
@@ -96,7 +105,7 @@ def test_bed_behind_the_face_carries_no_pressure_and_comes_back():
     assert np.all(particles.pressure[~covered] == 5.0)
     assert np.all(particles.role[~covered] == role[~covered])
     piston.push(particles, 0.5 * PERIOD, 0.5 * PERIOD)
-    piston.move(particles, 0.5 * PERIOD + 0.5 * PERIOD)
+    piston.move(particles, 0.5 * PERIOD, 0.5 * PERIOD)
     behind = floor & (particles.position[:, 0] < -0.75 * D0)
     np.testing.assert_array_equal(particles.role[~behind], role[~behind])
     assert np.all(particles.role[behind] == FILLER)
@@ -106,7 +115,7 @@ def test_bed_ahead_of_a_withdrawn_piston_carries_pressure():
     """The floor that it leaves is floor of the tank."""
     particles, piston, _ = tank_of(backward)
     piston.push(particles, 0.0, 0.5 * PERIOD)
-    piston.move(particles, 0.0 + 0.5 * PERIOD)
+    piston.move(particles, 0.0, 0.5 * PERIOD)
     x, z = particles.position[:, 0], particles.position[:, 2]
     top = ~particles.moves_with_piston & (np.abs(z + 0.5 * D0) < 1e-9)
     ahead = top & (x > -STROKE) & (x < 0.1)
@@ -120,9 +129,9 @@ def test_tank_and_bed_to_cover_do_not_depend_on_the_end_of_the_run(tmp_path):
                "wavemaker.file": str(tmp_path / "record.csv")}  # fmt: skip
     early, late = (flow_of(make_case({**changes, "time.end": end})) for end in (0.1, 2.0))
     assert early.particles.position.tobytes() == late.particles.position.tobytes()
-    assert early.piston.bed.tolist() == late.piston.bed.tolist()
+    assert early.solids.piston.bed.tolist() == late.solids.piston.bed.tolist()
     assert early.domain.slabs == late.domain.slabs
-    assert early.piston.paddle.foremost < late.piston.paddle.foremost
+    assert early.solids.piston.paddle.foremost < late.solids.piston.paddle.foremost
 
 
 def test_bed_is_covered_right_after_particles_were_lost():
@@ -133,9 +142,9 @@ def test_bed_is_covered_right_after_particles_were_lost():
     keep[gone] = False
     rest = particles.take(keep)
     piston.push(particles, 0.0, 0.1)
-    piston.move(particles, 0.0 + 0.1)
+    piston.move(particles, 0.0, 0.1)
     piston.push(rest, 0.0, 0.1)
-    piston.move(rest, 0.0 + 0.1)
+    piston.move(rest, 0.0, 0.1)
     np.testing.assert_array_equal(rest.role, particles.role[keep])
     np.testing.assert_array_equal(rest.position, particles.position[keep])
 
@@ -144,7 +153,7 @@ def test_water_is_never_touched(tank):
     particles, piston, _ = tank
     water = particles.position[particles.fluid].copy()
     piston.push(particles, 0.0, 0.25)
-    piston.move(particles, 0.0 + 0.25)
+    piston.move(particles, 0.0, 0.25)
     assert np.all(particles.position[particles.role == FLUID] == water)
 
 
@@ -152,10 +161,10 @@ def test_tank_without_wavemaker_has_a_fixed_wall():
     case = make_case()
     particles = geometry.build_particles(case)
     assert make_paddle(case) is None
-    piston = Piston(particles, None, D0)
+    piston = begun(case, None, particles)
     before = particles.position.copy(), particles.role.copy()
     piston.push(particles, 0.0, 0.1)
-    piston.move(particles, 0.0 + 0.1)
+    piston.move(particles, 0.0, 0.1)
     assert piston.face(3.0) == 0.0
     np.testing.assert_array_equal(particles.position, before[0])
     np.testing.assert_array_equal(particles.role, before[1])

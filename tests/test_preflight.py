@@ -10,10 +10,10 @@ from mpslab import cases, census, geometry
 from mpslab.keys import CaseError
 from mpslab.kinds import FLUID, KIND_NAMES, kinds_of
 from mpslab.parameters import LISTS
-from mpslab.piston import make_paddle
 from mpslab.preflight import preflight
 from mpslab.preflight_text import sections
 from mpslab.simulation import Simulation
+from mpslab.solids.piston import make_paddle
 
 BOX = {"from": [0.66, 0.03, 0.0], "to": [0.82, 0.09, 0.161]}
 TALL = {"from": [0.7, 0.0, 0.0], "to": [0.9, 0.15, 0.2]}

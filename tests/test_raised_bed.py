@@ -6,8 +6,8 @@ from tanks import flow_of, make_case
 
 from mpslab import initial
 from mpslab.keys import CaseError
-from mpslab.piston import make_paddle
 from mpslab.preflight import preflight
+from mpslab.solids.piston import make_paddle
 
 WAVE = {"wavemaker.type": "linear", "wavemaker.height": 0.01, "wavemaker.period": 0.777}
 RAISED = {"tank.length": 0.8, "tank.depth": 0.04, "tank.bed": [[0.0, 0.02], [0.8, 0.02]]}

@@ -259,7 +259,7 @@ def test_input_file_that_changes_after_the_start_moves_no_piston(tmp_path):
     assert resumed.case.wavemaker.file == str(tmp_path / "run/wavemaker.csv")
     times = np.linspace(0.0, 0.2, 21)
     for t in times:
-        assert resumed._flow.piston.face(t) == started._flow.piston.face(t)
+        assert resumed._flow.solids.face(t) == started._flow.solids.face(t)
 
 
 def test_changed_copy_is_refused_with_both_checksums(run):

@@ -53,7 +53,7 @@ def test_piston_pushes_the_water_ahead_and_lets_none_through():
     water = flow.particles.fluid
     middle = flow.particles.position[water, 0].mean()
     run(flow, 400, 5e-4)
-    face = flow.piston.face(flow.time)
+    face = flow.solids.face(flow.time)
     assert flow.time == pytest.approx(0.2)
     assert face > 2.0 * D0
     assert flow.particles.position[flow.particles.body == PISTON, 0].max() == pytest.approx(

@@ -10,6 +10,7 @@ from mpslab.particles import FACE, FLUID, PISTON, WATER, make_particles
 from mpslab.stencil import make_stencil
 
 RHO, G, DT = 1000.0, 9.81, 1e-3
+GRAVITY = np.array([0.0, 0.0, -G])
 
 
 def tank(dim=3, jitter=0.1, half=4):
@@ -24,7 +25,8 @@ def tank(dim=3, jitter=0.1, half=4):
 
 
 def pull_of(particles):
-    return walls.pull(particles, np.zeros_like(particles.velocity), G, DT)
+    return walls.pull(particles, np.zeros_like(particles.velocity), GRAVITY, DT,
+                      np.zeros(len(particles), bool))
 
 
 @pytest.mark.parametrize("dim", [2, 3])
@@ -57,7 +59,8 @@ def test_laplacian_of_hydrostatic_pressure_vanishes_beside_a_wall(dim):
 def test_pull_of_an_accelerating_piston_is_gravity_less_its_acceleration():
     particles = make_particles(np.zeros((2, 3)), [FLUID, FACE], [WATER, PISTON])
     particles.velocity[1, 0] = 0.3
-    pull = walls.pull(particles, np.array([[0.0, 0, 0], [0.1, 0, 0]]), G, 0.1)
+    pull = walls.pull(particles, np.array([[0.0, 0, 0], [0.1, 0, 0]]), GRAVITY, 0.1,
+                      np.array([False, True]))
     np.testing.assert_allclose(pull, [[0.0, 0.0, -G], [-2.0, 0.0, -G]])
 
 

@@ -7,12 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import instruments, obstacles, plugins
+from mpslab import instruments, plugins
 from mpslab.cases import contents
 from mpslab.cases.contents import ROUNDING
 from mpslab.census import census
+from mpslab.forcings import frame
 from mpslab.keys import CaseError, require, require_choice, toml_name
 from mpslab.parameters import Case
+from mpslab.solids import obstacles
 
 # Above this a case is taken for a slip of the pen: its arrays would take hundreds of gigabytes.
 MOST_PARTICLES = 1e9
@@ -40,6 +42,7 @@ def check(case: Case) -> None:
     contents.check(case)
     _check_count(case)
     _check_motion(case)
+    _check_frame(case)
     _check_gravity(case)
     _check_time(case)
     for name in ("gauge", "probe"):
@@ -215,6 +218,20 @@ def _check_motion(case):
         initial.speed,
         "other than 0 for initial.type = 'stream'",
     )
+
+
+def _check_frame(case):
+    motion, lid = case.frame, case.tank.lid
+    rule = "false with a wavemaker or a gate, which it would be in the way of"
+    require(not lid or (case.wavemaker.type == "none" and not case.gate), "tank.lid", lid, rule)
+    if motion.type in ("sway", "heave", "roll"):
+        rule = f"> 0 for frame.type = {motion.type!r}"
+        require(motion.amplitude > 0.0, "frame.amplitude", motion.amplitude, rule)
+        require(motion.period > 0.0, "frame.period", motion.period, rule)
+    if motion.type == "file":
+        exists = bool(motion.file) and Path(motion.file).is_file()
+        require(exists, "frame.file", motion.file, "a CSV file that exists")
+        frame.motion_of(motion)
 
 
 def _check_gravity(case):

@@ -10,14 +10,17 @@ def complete(case: Case) -> Case:
     """The case with nothing left open; a case that is complete comes back equal.
 
     Left open by 0 or [], or left out: wall height, bed, wall layers, limits of the time step,
-    output intervals, and y of the instruments. In a 2-D tank every y is 0.
+    output intervals, names of solids, the axis of a roll, and y of the instruments. In a 2-D tank
+    every y is 0.
     """
     tank = _tank(case.tank)
     return replace(
         case,
         tank=tank,
         water=_boxes(case.water, tank),
-        obstacle=_boxes(case.obstacle, tank),
+        obstacle=_named("obstacle", _boxes(case.obstacle, tank)),
+        gate=_named("gate", case.gate),
+        frame=replace(case.frame, center=case.frame.center or (0.5 * tank.length, 0.0)),
         particles=replace(case.particles, layers=case.particles.layers or least_layers(case)),
         time=_time(case),
         output=_output(case),
@@ -95,6 +98,12 @@ def _across(instrument, tank):
 
 def _boxes(boxes, tank):
     return tuple(_flat_box(box) for box in boxes) if tank.width == 0.0 else boxes
+
+
+def _named(kind, solids):
+    return tuple(
+        replace(solid, name=solid.name or f"{kind}-{i}") for i, solid in enumerate(solids, 1)
+    )
 
 
 def _flat_box(box):

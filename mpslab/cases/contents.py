@@ -5,12 +5,17 @@ from itertools import combinations
 import numpy as np
 
 from mpslab import bed as beds
-from mpslab import filling, gates, obstacles
+from mpslab import filling
 from mpslab.census import columns_between
+from mpslab.core.lattice import effective_length
 from mpslab.keys import require, shown
+from mpslab.solids import gates, obstacles
 
 # Lengths from different keys count as equal when they differ by less than this share of the tank.
 ROUNDING = 1e-9
+
+# Names that no obstacle or gate may have.
+RESERVED = ("water", "tank", "piston", "end_wall")
 
 # A disc so many spacings across holds the centre of a particle, wherever it lies.
 LEAST_DISC = 2
@@ -21,6 +26,7 @@ def check(case):
     _check_water(case)
     _check_obstacles(case)
     _check_gates(case)
+    _check_names(case)
 
 
 def _check_water(case):
@@ -96,12 +102,23 @@ def _room(case):
     return [piece for box in boxes for piece in obstacles.around(case, *box)]
 
 
+def _check_names(case):
+    """Solids have names of their own: in what is written, a name stands for one thing."""
+    seen = dict.fromkeys(RESERVED, f"those of the tank, {', '.join(RESERVED)}")
+    for kind in ("obstacle", "gate"):
+        for i, solid in enumerate(getattr(case, kind)):
+            where = f"{kind}.{i}.name"
+            rule = f"different from {seen.get(solid.name)}"
+            require(solid.name not in seen, where, solid.name, rule)
+            seen[solid.name] = where
+
+
 def _check_gates(case):
     faces, spacing = gates.faces(case), case.particles.spacing
     blocks = obstacles.blocks(case) * spacing
     slack = 1e-6 * spacing
     for i, (low, high) in enumerate(faces):
-        most = filling.effective_length(case) - (obstacles.least_thickness(case) + 1) * spacing
+        most = effective_length(case) - (obstacles.least_thickness(case) + 1) * spacing
         x = case.gate[i].x
         inside = spacing - slack <= low <= most + slack
         rule = f"from {spacing:g} to {most:g} m, for a gate {high - low:g} m thick"

@@ -39,7 +39,7 @@ def integrals(flow, before):
     """What the water holds now and what the piston did since `before` [s], a dict by column."""
     p, stencil, fluid, total = flow.particles, flow.stencil, flow.case.fluid, flow.domain.total
     force = diagnostics.piston_force(p, stencil, total)
-    stroke = flow.piston.face(flow.time) - flow.piston.face(before)
+    stroke = flow.solids.face(flow.time) - flow.solids.face(before)
     return {
         "max_speed": max(flow.domain.from_all(diagnostics.max_speed(p))),
         "kinetic_energy": diagnostics.kinetic_energy(p, stencil, fluid.density, total),

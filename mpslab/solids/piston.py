@@ -3,8 +3,10 @@
 import numpy as np
 
 from mpslab import plugins
+from mpslab.core import lattice
 from mpslab.keys import CaseError, shown
 from mpslab.particles import FACE, FILLER, TANK
+from mpslab.solids.solid import Solid
 
 ROOM = 3  # spacings that are left between the piston and an obstacle or a gate
 
@@ -66,51 +68,71 @@ def _leave_room(key, value, x, reach):
         )
 
 
-class Piston:
-    """Moves the piston's particles and covers the bed behind its face.
+class Piston(Solid):
+    """Wall particles that follow the wavemaker, and cover the bed behind their face.
 
     Parameters
     ----------
-    particles : ParticleSet
-        All of the tank as laid out, the piston at rest with its face at x = 0.
+    case : mpslab.parameters.Case
+    tank : mpslab.solids.tank.Tank
     paddle : mpslab.paddle.Paddle or None
-        Motion of the wavemaker; None for a tank without one.
-    spacing : float [m]
+        Motion of the wavemaker; None to lay the piston out only.
     """
 
-    def __init__(self, particles, paddle, spacing):
-        self.paddle = paddle
-        self.margin = 0.75 * spacing
+    def __init__(self, case, tank, paddle=None):
+        super().__init__("piston")
+        self.tank, self.paddle = tank, paddle
+        self.margin, self.spacing = 0.75 * case.particles.spacing, case.particles.spacing
+        self.gid, self.rest, self.bed = np.zeros(0, int), np.zeros(0), np.zeros(0, int)
+
+    def particles(self, case):
+        """Vertical layers, at rest with their face at x = 0."""
+        section, role = self.tank.end_wall(-1)
+        return lattice.across(case, section), np.tile(role, lattice.rows_across(case))
+
+    def motion(self, time):
+        """How far its face has gone along x."""
+        return np.array([self.face(time), 0.0, 0.0])
+
+    def holds(self, points):
+        return points[:, 0] < 0.0
+
+    def begin(self, particles):
+        """Find the piston's particles, and the bed that it may cover."""
         moving = particles.moves_with_piston
         self.gid = particles.gid[moving]
         self.rest = particles.position[moving, 0].copy()
-        near = paddle.farthest + spacing if paddle else -np.inf
         bed = (particles.role == FACE) & (particles.body == TANK)
-        bed &= particles.position[:, 0] < near
+        bed &= particles.position[:, 0] < self.paddle.farthest + self.spacing
         self.bed = particles.gid[bed]
 
-    def share_out(self, comm):
-        """Give all ranks the piston of rank 0, which has seen all particles."""
-        self.gid, self.rest, self.bed = comm.bcast((self.gid, self.rest, self.bed))
+    def state(self):
+        own = {f"paddle.{key}": value for key, value in self.paddle.state().items()}
+        return {"gid": self.gid, "rest": self.rest, "bed": self.bed, **own}
+
+    def restore(self, state):
+        self.gid, self.rest, self.bed = state["gid"], state["rest"], state["bed"]
+        head = "paddle."
+        own = {k.removeprefix(head): v for k, v in state.items() if k.startswith(head)}
+        if own:
+            self.paddle.restore(own)
+
+    def advance(self, time, dt, readings):
+        self.paddle.advance(time, dt, readings)
 
     def face(self, time):
-        """x of the piston's face [m]; 0 without a wavemaker."""
-        return self.paddle.displacement(time) if self.paddle else 0.0
+        """x of the piston's face [m]."""
+        return self.paddle.displacement(time)
 
-    def push(self, particles, time, dt):
-        """Give the piston the velocity of its move from time to time + dt."""
-        if self.paddle is not None:
-            moving = particles.moves_with_piston
-            particles.velocity[moving, 0] = (self.face(time + dt) - self.face(time)) / dt
+    def push(self, particles, rows, time, dt):
+        particles.velocity[rows, 0] = (self.face(time + dt) - self.face(time)) / dt
 
-    def move(self, particles, time):
-        """Take the piston to its place at a time, and cover the bed behind it."""
-        if self.paddle is None:
-            return
-        moving = np.flatnonzero(particles.moves_with_piston)
-        rest = self.rest[np.searchsorted(self.gid, particles.gid[moving])]
-        particles.position[moving, 0] = rest + self.face(time)
-        self.cover(particles, self.face(time))
+    def move(self, particles, rows, time, dt):
+        """Take the piston to its place at time + dt, and cover the bed behind it."""
+        face = self.face(time + dt)
+        rest = self.rest[np.searchsorted(self.gid, particles.gid[rows])]
+        particles.position[rows, 0] = rest + face
+        self.cover(particles, face)
 
     def cover(self, particles, face):
         """Bed behind the face carries no pressure: else it would tie the corner to p = 0."""

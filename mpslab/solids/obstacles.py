@@ -12,7 +12,9 @@ import numpy as np
 import scipy
 
 from mpslab import bed as beds
-from mpslab.particles import FACE, FILLER, FIRST_SOLID, PISTON, TANK
+from mpslab.core import lattice
+from mpslab.particles import FACE, FILLER, FIRST_SOLID, PISTON
+from mpslab.solids.solid import Solid
 
 NEAR = 2.0  # spacings: water no further off than this presses on a wall at t = 0
 
@@ -49,37 +51,53 @@ def around(case, start, end):
     return boxes
 
 
-def fill(case, solid):
-    """Particles of the obstacles among the others: positions (n, 3) [m], and role and body (n, 2).
-
-    The outermost are faces, all inside are fillers.
+class Obstacle(Solid):
+    """A box of the case; of boxes that overlap, the later one has the particles.
 
     Parameters
     ----------
-    solid : (m, 3) float64 [m]
-        Bed and walls; particles that came too close to these are left out.
+    case : mpslab.parameters.Case
+    number : int
+        Which of ``case.obstacle`` it is.
+    tank : mpslab.solids.tank.Tank
     """
-    spacing = case.particles.spacing
-    cells = [_cells(case, low, high) for low, high in blocks(case)]
-    place = np.unique(np.vstack(cells), axis=0) + 0.5
-    if case.dim == 2:
-        place[:, 1] = 0.0
-    position = place * spacing
-    free = position[:, 2] > beds.elevation(case.tank.bed, position[:, 0])
-    free &= scipy.spatial.cKDTree(solid).query(position)[0] > beds.CLOSEST * spacing
-    role = np.where(_meets_water(case, place[free]), FACE, FILLER)
-    body = FIRST_SOLID + _holder(case, place[free])
-    return position[free], np.column_stack([role, body]).astype(np.int16)
+
+    def __init__(self, case, number, tank):
+        super().__init__(case.obstacle[number].name)
+        self.case, self.number, self.tank = case, number, tank
+
+    def particles(self, case):
+        """Particles on the lattice: the outermost are faces, all inside are fillers."""
+        place = _cells(case, *blocks(case)[self.number]) + 0.5
+        if case.dim == 2:
+            place[:, 1] = 0.0
+        place = place[_holder(case, place) == self.number]
+        position = place * case.particles.spacing
+        free = position[:, 2] > beds.elevation(case.tank.bed, position[:, 0])
+        free &= lattice.clear(case, position[:, [0, 2]], self.tank.floor[0])
+        return position[free], np.where(_meets_water(case, place[free]), FACE, FILLER)
+
+    def holds(self, points):
+        return _holder(self.case, points / self.case.particles.spacing) == self.number
 
 
-def cover(case, position, kind):
+def make(case, tank):
+    """The obstacles of a case, in their order."""
+    return [Obstacle(case, number, tank) for number in range(len(case.obstacle))]
+
+
+def cover(case, position, role):
     """Make fillers of the faces of the tank that obstacles stand against, in place.
 
-    kind : (n, 2) int16, role and body
+    Parameters
+    ----------
+    position, role : (n, 3) float64 [m], (n,) int8
+        Of the tank.
     """
-    place = position / case.particles.spacing
-    rows = np.flatnonzero((kind[:, 0] == FACE) & (kind[:, 1] == TANK) & _inside(case, place))
-    kind[rows[~_meets_water(case, place[rows])], 0] = FILLER
+    if case.obstacle:
+        place = position / case.particles.spacing
+        rows = np.flatnonzero((role == FACE) & _inside(case, place))
+        role[rows[~_meets_water(case, place[rows])]] = FILLER
 
 
 def press(case, particles):
@@ -114,7 +132,7 @@ def deep_inside(case, position):
 
 def _block(tank, spacing, box):
     low, high = (np.round(np.array(corner) / spacing) for corner in (box.start, box.end))
-    length, width = size(tank, spacing)
+    length, width = lattice.size(tank, spacing)
     flat = tank.width == 0.0
     whole_width = low[1] <= 0.0 and high[1] >= width
     if low[0] <= 0.0:
@@ -128,11 +146,6 @@ def _block(tank, spacing, box):
     if box.start[2] < beds.lowest(tank.bed, box.start[0], box.end[0]) + 0.5 * spacing:
         low[2] = -np.inf
     return low, high
-
-
-def size(tank, spacing):
-    """Length and width of the tank in whole spacings; width 1 in 2-D."""
-    return round(tank.length / spacing), max(round(tank.width / spacing), 1)
 
 
 def cut(start, end, low, high):
@@ -152,7 +165,7 @@ def cut(start, end, low, high):
 
 def _cells(case, low, high):
     """Lattice cells of a block inside the tank, (n, 3) int."""
-    length, width = size(case.tank, case.particles.spacing)
+    length, width = lattice.size(case.tank, case.particles.spacing)
     ends = np.clip([low[0], high[0]], 0, length) * case.particles.spacing
     ground = np.floor(beds.lowest(case.tank.bed, *ends) / case.particles.spacing)
     least, most = (0, 0, ground), (length, width, np.inf)
@@ -169,7 +182,7 @@ def _meets_water(case, place):
 
 def _open(case, place):
     """Whether places (n, 3) [spacings] are in the tank and in no obstacle, (n,) bool."""
-    length, width = size(case.tank, case.particles.spacing)
+    length, width = lattice.size(case.tank, case.particles.spacing)
     spacing, x, y = case.particles.spacing, place[:, 0], place[:, 1]
     if case.tank.periodic:
         place = np.column_stack([x, y % width, place[:, 2]])

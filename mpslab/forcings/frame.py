@@ -1,0 +1,94 @@
+"""Inertia in a tank that moves: the run is in the frame of the tank, where its walls are at rest.
+
+A place r of the tank is at c + X + R(a) (r - c) in the earth's frame, with the displacement X and
+the angle a of the tank about the axis c, and R the rotation from x towards z.  So, with J = R(90
+degrees) and rho = r - c, the acceleration of the water in the tank's frame is
+
+    R(-a) (g - X'') - a'' J rho + a'^2 rho - 2 a' J u
+
+gravity turned and less the acceleration of the axis, then Euler's, the centrifugal and Coriolis's
+share.  Gravity itself is a forcing of its own; here stands what differs from it.
+"""
+
+import csv
+
+import numpy as np
+
+from mpslab.keys import CaseError
+from mpslab.solids.motion import Sine, Table
+
+AXES = {"sway": 0, "heave": 1, "roll": 2}
+COLUMNS = {"x": 1.0, "z": 1.0, "roll": np.pi / 180.0}  # of a file, in m, m and rad
+
+
+def make(case):
+    """The inertia of a case, None for a tank at rest."""
+    if case.frame.type == "none":
+        return None
+    motion, gravity = motion_of(case.frame), case.fluid.gravity
+
+    def inertia(position, velocity, time):
+        angle = motion(time)[2]
+        turn = motion(time, 1)[2]
+        ax, az, spin = motion(time, 2)
+        cosine, sine = np.cos(angle), np.sin(angle)
+        x, z = (position[:, k] - c for k, c in zip((0, 2), motion.center, strict=True))
+        out = np.zeros_like(position)
+        out[:, 0] = -cosine * ax - sine * (gravity + az) + spin * z + turn**2 * x
+        out[:, 0] += 2.0 * turn * velocity[:, 2]
+        out[:, 2] = sine * ax - cosine * (gravity + az) + gravity - spin * x + turn**2 * z
+        out[:, 2] -= 2.0 * turn * velocity[:, 0]
+        return out
+
+    return inertia
+
+
+def motion_of(frame):
+    """Motion of the tank that a table [frame] asks for.
+
+    Raises
+    ------
+    CaseError
+        If the file cannot be read, or is no such table.
+    """
+    if frame.type == "file":
+        return Table(*_read(frame.file), frame.center)
+    amplitude = np.radians(frame.amplitude) if frame.type == "roll" else frame.amplitude
+    return Sine(AXES[frame.type], amplitude, frame.period, frame.start, frame.center)
+
+
+def _read(path):
+    """Times (n,) [s] and values (n, 3) [m], [m], [rad] of a file."""
+    where = f"frame.file = {str(path)!r}"
+    try:
+        with open(path, newline="", encoding="utf-8-sig") as stream:
+            rows = [row for row in csv.reader(stream) if row]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise CaseError(f"{where}: cannot be read as a CSV file ({error})") from error
+    names = [cell.partition("[")[0].strip() for cell in rows[0]] if rows else []
+    if names[:1] != ["time"] or not set(names[1:]) <= set(COLUMNS) or len(names) != len(set(names)):
+        raise CaseError(
+            f"{where}: heading {','.join(rows[0] if rows else [])!r}: must be time [s] and any of "
+            "x [m], z [m] and roll [deg], parted by commas"
+        )
+    table = np.array([_numbers(row, len(names), where, i) for i, row in enumerate(rows[1:], 2)])
+    if len(table) < 3 or len(names) < 2:
+        raise CaseError(f"{where}: must have 3 rows of numbers or more, in 2 columns or more")
+    late = np.flatnonzero(np.diff(table[:, 0]) <= 0.0)
+    if len(late):
+        raise CaseError(f"{where}, row {late[0] + 3}: time must be above that of the row before")
+    values = np.zeros((len(table), len(COLUMNS)))
+    for k, (name, unit) in enumerate(COLUMNS.items()):
+        if name in names:
+            values[:, k] = unit * table[:, names.index(name)]
+    return table[:, 0], values
+
+
+def _numbers(row, count, where, line):
+    try:
+        numbers = [float(cell) for cell in row]
+    except ValueError:
+        numbers = []
+    if len(numbers) != count or not np.all(np.abs(numbers) < 1e9):
+        raise CaseError(f"{where}, row {line}: {','.join(row)!r} must be {count} finite numbers")
+    return numbers

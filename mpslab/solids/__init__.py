@@ -1,0 +1,24 @@
+"""Solids: the tank, and what stands in it or moves through it.
+
+A solid is an object with
+
+    name : str
+    particles(case) -> position (n, 3) float64 [m], role (n,) int8
+        Where its particles stand at t = 0, and whether each is a FACE, which carries a pressure,
+        or a FILLER behind it. Two faces that both meet water stand as far apart as
+        `obstacles.least_thickness` says.
+    motion : function (t [s]) -> (x, z, angle) [m, m, rad], or None
+        How far it has gone from where it was laid out (`mpslab.solids.motion`); None for a solid
+        that stands still.
+    holds(points) -> (n,) bool
+        Which places (n, 3) [m] are inside it, as it was laid out: no water is laid there.
+    state() -> dict, restore(dict)
+        What a checkpoint keeps of it: names to numbers, strings and arrays.
+
+`mpslab.solids.solid.Solid` has all of these but the first two, for a solid that keeps nothing.
+
+In a step a solid has the velocity of its whole move in this step, move/dt, and as acceleration the
+change of that velocity since the step before: so solid and water, which the pressure keeps apart,
+agree on where they end. All through the step, therefore, a solid has the velocity of the step, and
+with projection "start" still the place of its beginning.
+"""
