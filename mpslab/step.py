@@ -9,6 +9,7 @@ import numpy as np
 from mpslab import correction, friction, gates, geometry, plugins, pressure, surface, walls
 from mpslab.domain import Domain
 from mpslab.kernels import density
+from mpslab.models import copied
 from mpslab.neighbors import NeighborList
 from mpslab.particles import ParticleSet, on_axes
 from mpslab.piston import Piston
@@ -29,8 +30,8 @@ class Flow:
     particles : ParticleSet
         Those that this rank owns; within a step also its ghosts.
     piston : Piston
-    stencil, laplacian_stencil : Stencil
-        Of gradient and number density, and of the Laplacian.
+    stencil, gradient_stencil, laplacian_stencil : Stencil
+        Of the number density, of the gradient and of the Laplacian.
     domain : Domain
     neighbors : NeighborList
         Where the pressure acted last.
@@ -43,6 +44,7 @@ class Flow:
     particles: ParticleSet
     piston: Piston
     stencil: Stencil
+    gradient_stencil: Stencil
     laplacian_stencil: Stencil
     domain: Domain
     gradient: ModuleType
@@ -63,6 +65,11 @@ class Flow:
     def extrapolates(self):
         """Whether the walls take their pressure from the water in front of them."""
         return self.case.scheme.walls == "extrapolated"
+
+    @property
+    def copies(self):
+        """Whether the layers behind the walls' first one have a copy of its pressure."""
+        return self.case.scheme.walls == "copied"
 
     @property
     def unknowns(self):
@@ -98,8 +105,10 @@ def make_flow(case, particles, piston, width, comm=None):
     """
     scheme, spacing = case.scheme, case.particles.spacing
     dim = 2 if case.tank.width == 0.0 else 3
-    stencil = make_stencil(dim, spacing, scheme.effective_radius, width)
-    laplacian_stencil = make_stencil(dim, spacing, scheme.laplacian_radius, width)
+    stencil, gradient_stencil, laplacian_stencil = (
+        make_stencil(dim, spacing, radius, width)
+        for radius in (scheme.effective_radius, scheme.radius_of_gradient, scheme.laplacian_radius)
+    )
     domain = Domain(slabs_of(case, piston.paddle), comm)
     solver = solver_of(case, domain.size)
     piston.share_out(domain.comm)
@@ -108,6 +117,7 @@ def make_flow(case, particles, piston, width, comm=None):
         particles=domain.take_part(particles, case.parallel.balance),
         piston=piston,
         stencil=stencil,
+        gradient_stencil=gradient_stencil,
         laplacian_stencil=laplacian_stencil,
         domain=domain,
         gradient=plugins.load("gradients", scheme.gradient),
@@ -121,8 +131,8 @@ def make_flow(case, particles, piston, width, comm=None):
 def slabs_of(case, paddle):
     """The slabs of the tank of a case with a paddle, None for a fixed wall."""
     scheme, spacing = case.scheme, case.particles.spacing
-    radius = max(scheme.effective_radius, scheme.laplacian_radius) * spacing
-    return make_slabs(*geometry.extent(case, paddle.backmost if paddle else 0.0), radius)
+    extent = geometry.extent(case, paddle.backmost if paddle else 0.0)
+    return make_slabs(*extent, scheme.reach * spacing)
 
 
 def solver_of(case, ranks):
@@ -207,9 +217,9 @@ def _move_solids(flow, dt):
 
 def find_neighbors(flow):
     """The neighbour list of the particles as they are; of ghosts only those next to the border."""
-    radius = max(flow.stencil.radius, flow.laplacian_stencil.radius)
+    radius = flow.case.scheme.reach * flow.stencil.spacing
     particles = flow.particles
-    active = flow.unknowns
+    active = np.ones(len(particles), bool) if flow.copies else flow.unknowns
     if not getattr(flow.solver, "NEEDS_GHOST_ROWS", False):
         active &= flow.domain.within_reach(particles.position[:, 0], radius)
     flow.neighbors.build(particles.position, radius, flow.stencil.width, active)
@@ -290,11 +300,16 @@ def _correct(flow, start, dt):
     """u = u* - (dt/rho) grad p and r = start + u dt, then keep the particles in order."""
     particles, neighbors = flow.particles, flow.neighbors
     before = particles.position.copy()
-    role = walls.with_pressure(particles) if flow.extrapolates else particles.role
+    role = particles.role
+    if flow.extrapolates:
+        role = walls.with_pressure(particles)
+    elif flow.copies:
+        role = copied.fill(particles, neighbors, flow.stencil.width)
+        flow.domain.refresh(particles.pressure, role)
     change = np.zeros_like(particles.velocity)
     flow.gradient.gradient(
         particles.position, particles.pressure, role, neighbors.indptr, neighbors.indices,
-        flow.stencil, flow.correction, change,
+        flow.gradient_stencil, flow.correction, change,
     )  # fmt: skip
     particles.velocity -= (dt / flow.case.fluid.density) * change
     moved = start + dt * particles.velocity
