@@ -44,7 +44,7 @@ WIDE = {"scheme.gradient": "symmetric", "scheme.gradient_radius": 3.1, "scheme.w
 
 
 def test_copies_hold_up_water_that_sees_three_layers_of_a_bed():
-    """Still water with a gradient of 3.1 d0, over the weight of the water (0.75 without copies)."""
+    """Still water with a gradient of 3.1 d0, carries the weight of the water (1.24 without copies)."""
     tank = {"tank.length": 0.03, "tank.depth": 0.04, "particles.jitter": 0.001}
     flow = flow_of(make_case({**tank, **CLASSIC, **WIDE}))
     x, z = flow.particles.position[:, 0], flow.particles.position[:, 2]
@@ -53,4 +53,4 @@ def test_copies_hold_up_water_that_sees_three_layers_of_a_bed():
     for _ in range(150):
         run(flow, 1, 4e-4)
         mean.append(flow.particles.pressure[low].mean())
-    assert np.mean(mean[50:]) == pytest.approx(1000.0 * 9.81 * 0.041, rel=0.1)
+    assert np.mean(mean[50:]) == pytest.approx(1000.0 * 9.81 * 0.041, rel=0.05)
