@@ -44,7 +44,7 @@ WIDE = {"scheme.gradient": "symmetric", "scheme.gradient_radius": 3.1, "scheme.w
 
 
 def test_copies_hold_up_water_that_sees_three_layers_of_a_bed():
-    """Still water with a gradient of 3.1 d0, carries the weight of the water (1.24 without copies)."""
+    """The bed carries the weight of the water; without copies it would be 1.24 times as much."""
     tank = {"tank.length": 0.03, "tank.depth": 0.04, "particles.jitter": 0.001}
     flow = flow_of(make_case({**tank, **CLASSIC, **WIDE}))
     x, z = flow.particles.position[:, 0], flow.particles.position[:, 2]
