@@ -305,6 +305,7 @@ def _correct(flow, start, dt):
         role = walls.with_pressure(particles)
     elif flow.copies:
         role = copied.fill(particles, neighbors, flow.stencil.width)
+        # The nearest face of a ghost may lie beyond all ghosts.
         flow.domain.refresh(particles.pressure, role)
     change = np.zeros_like(particles.velocity)
     flow.gradient.gradient(

@@ -11,11 +11,12 @@ EXACT_FOR_LINEAR = False
 def gradient(const double[:, ::1] position, const double[::1] pressure,
              const signed char[::1] role, const int[::1] indptr, const int[::1] indices,
              stencil, correction, double[:, ::1] out):
-    """<grad p>_i = (Ds/m0) sum_j ((p_i + p_j) - (p^_i + p^_j)) r_ij w / r, m0 = sum w r.
+    """<grad p>_i = (Ds/m0) sum_j ((p_i + p_j) - (p^_i + p^_j)) r_ij w / r.
 
-    Equation (4) of the paper with r as its print has it, not r^2; then n0 = sum w over the full
-    lattice gives way to m0, which makes the dimension that of a gradient, and the sum of p_i + p_j
-    exact there.
+    Equation (4) of the paper with r in place of r^2, and m0 = sum w r over the full lattice in
+    place of n0 = sum w: so the dimension is that of a gradient, and the sum of p_i + p_j is exact
+    on the lattice.  The printed text that we have shows r, but its factor goes with r^2
+    (docs/cmps.md).
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = stencil.dim / stencil.first

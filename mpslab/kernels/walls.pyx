@@ -1,4 +1,4 @@
-"""Walls whose pressure continues that of the water in front of them."""
+"""Pressure of walls: that of the water in front of them, or of their own first layer."""
 from libc.math cimport INFINITY
 
 from mpslab.kernels.pair cimport FACE, FILLER, FLUID, distance, weight, wrap
