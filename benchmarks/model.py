@@ -74,7 +74,7 @@ def make_tank(spacing):
     flat = load_case("plunging_breaker", {"particles.spacing": spacing, "tank.width": 0.0})
     backmost, across = make_paddle(flat).backmost, geometry.rows_across(case)
     particles = geometry.build_particles(flat, backmost)
-    radius = spacing * max(flat.scheme.effective_radius, flat.scheme.laplacian_radius)
+    radius = spacing * flat.scheme.reach
     slabs = make_slabs(*geometry.extent(flat, backmost), radius)
     slab, fluid = slabs.of(particles.position[:, 0]), particles.fluid
     # Rows across differ in where a column has a particle more.

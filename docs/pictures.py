@@ -24,20 +24,24 @@ PAPER = {"wavemaker.height": 0.0196, "particles.spacing": 0.002, "output.interva
 SLICE = PAPER | {"tank.width": 0.0}
 THREE_WAVES = {"time.end": 2.3, "output.pictures": [0.9, 1.0375, 1.4125, 1.4375, 1.5, 2.2125]}
 TWO_WAVES = {"time.end": 1.6, "output.pictures": [0.6, 0.9, 1.0375, 1.125, 1.4375, 1.5]}
-CMPS = {"scheme.recipe": "paper"}
+# What stands around the gradient of MPS, and of CMPS as printed; and the jet of CMPS.
+CLASSIC = {"scheme.recipe": "paper", "scheme.gradient_radius": 0.0, "scheme.walls": "solved"}
+JET = {"wavemaker.first": "backward", "time.end": 1.3, "output.interval": 0.01}
 CHANGES = {
     "standard": SLICE | THREE_WAVES,
     "standard-3d": PAPER | THREE_WAVES,
-    "paper": SLICE | TWO_WAVES | CMPS,
-    "mps": SLICE | TWO_WAVES | CMPS | {"scheme.gradient": "mps"},
+    "printed": SLICE | TWO_WAVES | CLASSIC | {"scheme.gradient": "cmps"},
+    "mps": SLICE | TWO_WAVES | CLASSIC | {"scheme.gradient": "mps"},
+    "paper": SLICE | JET | {"scheme.recipe": "paper"},
 }
 # Name of the picture, its run, and what draws it.
 PICTURES = {
     "tank-196": ("standard", draw_tank),
-    "tank-paper": ("paper", draw_tank),
+    "tank-paper": ("printed", draw_tank),
     "tank-mps": ("mps", draw_tank),
     "tank": ("standard-3d", draw_tank),
     "breaker": ("standard", draw_breaker),
+    "cmps": ("paper", draw_breaker),
 }
 
 

@@ -26,9 +26,10 @@ class Scheme:
         choices=("predicted", "start"),
     )
     walls: str = key(
-        "wall pressure: an unknown of its own, or extrapolated from the water",
+        "wall pressure: an unknown of the first layer; the same, and copied from it to the layers "
+        "behind; or extrapolated from the water to all layers",
         "extrapolated",
-        choices=("solved", "extrapolated"),
+        choices=("solved", "copied", "extrapolated"),
     )
     surface: str = key(
         "free surface: p = 0 at marked particles, or a graded pull towards p = 0 above them",
@@ -38,7 +39,14 @@ class Scheme:
     tolerance: float = key("relative residual of the solver", 1e-5, above=0, high=0.1)
     max_iterations: int = key("most iterations of the solver", 2000, low=1)
     effective_radius: float = key(
-        "radius of gradient and number density", 2.1, unit="spacings", low=1.5, high=6
+        "radius of number density and divergence", 2.1, unit="spacings", low=1.5, high=6
+    )
+    gradient_radius: float = key(
+        "radius of the gradient, >= 1.5; 0 for effective_radius",
+        0.0,
+        unit="spacings",
+        low=0,
+        high=6,
     )
     laplacian_radius: float = key("radius of the Laplacian", 2.1, unit="spacings", low=1.5, high=6)
     relaxation: float = key("relaxation factor of the source 'density'", 0.2, above=0, high=1)
@@ -78,3 +86,13 @@ class Scheme:
 
     def __post_init__(self):
         check_table(self)
+
+    @property
+    def reach(self):
+        """The largest radius [spacings]."""
+        return max(self.effective_radius, self.radius_of_gradient, self.laplacian_radius)
+
+    @property
+    def radius_of_gradient(self):
+        """That of the gradient, its own or that of the number density [spacings]."""
+        return self.gradient_radius or self.effective_radius

@@ -46,6 +46,8 @@ class Stencil:
         Number density of a particle inside the full lattice.
     lambda0 : float [m2]
         sum w r^2 / sum w over that lattice (Koshizuka & Oka 1996).
+    first : float [m]
+        sum w r over that lattice.
     restoring : float [1/m2]
         By how much sum w r_ij/r^2 of a particle grows with its displacement from the lattice:
         (1/Ds) sum (r_e/r^3 - (Ds - 2) w/r^2).
@@ -60,6 +62,7 @@ class Stencil:
     width: float
     n0: float
     lambda0: float
+    first: float
     restoring: float
     lopsided: float
 
@@ -103,4 +106,14 @@ def make_stencil(dim, spacing, radius, width=0.0):
     restoring /= dim * spacing**2
     seen = w * (offsets[:, 2] <= 1.0)
     lopsided = abs(seen @ offsets[:, 2]) / seen.sum() * spacing
-    return Stencil(dim, spacing, radius * spacing, width, n0, lambda0, restoring, lopsided)
+    return Stencil(
+        dim=dim,
+        spacing=spacing,
+        radius=radius * spacing,
+        width=width,
+        n0=n0,
+        lambda0=lambda0,
+        first=(w * r).sum() * spacing,
+        restoring=restoring,
+        lopsided=lopsided,
+    )

@@ -10,6 +10,7 @@ from mpslab import correction, friction, geometry, plugins, pressure, surface, w
 from mpslab.domain import Domain
 from mpslab.forcings import forcings_of, total
 from mpslab.kernels import density
+from mpslab.models import copied
 from mpslab.neighbors import NeighborList
 from mpslab.particles import ParticleSet, on_axes
 from mpslab.slabs import make_slabs
@@ -30,8 +31,8 @@ class Flow:
     particles : ParticleSet
         Those that this rank owns; within a step also its ghosts.
     solids : Solids
-    stencil, laplacian_stencil : Stencil
-        Of gradient and number density, and of the Laplacian.
+    stencil, gradient_stencil, laplacian_stencil : Stencil
+        Of the number density, of the gradient and of the Laplacian.
     domain : Domain
     forcings : tuple
         Of the case, and the user's own.
@@ -52,6 +53,7 @@ class Flow:
     particles: ParticleSet
     solids: Solids
     stencil: Stencil
+    gradient_stencil: Stencil
     laplacian_stencil: Stencil
     domain: Domain
     gradient: ModuleType
@@ -76,6 +78,11 @@ class Flow:
     def extrapolates(self):
         """Whether the walls take their pressure from the water in front of them."""
         return self.case.scheme.walls == "extrapolated"
+
+    @property
+    def copies(self):
+        """Whether the layers behind the walls' first one have a copy of its pressure."""
+        return self.case.scheme.walls == "copied"
 
     @property
     def unknowns(self):
@@ -113,8 +120,10 @@ def make_flow(case, particles, solids, width, forcings=(), comm=None):
     """
     scheme, spacing = case.scheme, case.particles.spacing
     dim = 2 if case.tank.width == 0.0 else 3
-    stencil = make_stencil(dim, spacing, scheme.effective_radius, width)
-    laplacian_stencil = make_stencil(dim, spacing, scheme.laplacian_radius, width)
+    stencil, gradient_stencil, laplacian_stencil = (
+        make_stencil(dim, spacing, radius, width)
+        for radius in (scheme.effective_radius, scheme.radius_of_gradient, scheme.laplacian_radius)
+    )
     paddle = solids.piston.paddle if solids.piston else None
     domain = Domain(slabs_of(case, paddle), comm)
     solver = solver_of(case, domain.size)
@@ -124,6 +133,7 @@ def make_flow(case, particles, solids, width, forcings=(), comm=None):
         particles=domain.take_part(particles, case.parallel.balance),
         solids=solids,
         stencil=stencil,
+        gradient_stencil=gradient_stencil,
         laplacian_stencil=laplacian_stencil,
         domain=domain,
         gradient=plugins.load("gradients", scheme.gradient),
@@ -138,8 +148,8 @@ def make_flow(case, particles, solids, width, forcings=(), comm=None):
 def slabs_of(case, paddle):
     """The slabs of the tank of a case with a paddle, None for a fixed wall."""
     scheme, spacing = case.scheme, case.particles.spacing
-    radius = max(scheme.effective_radius, scheme.laplacian_radius) * spacing
-    return make_slabs(*geometry.extent(case, paddle.backmost if paddle else 0.0), radius)
+    extent = geometry.extent(case, paddle.backmost if paddle else 0.0)
+    return make_slabs(*extent, scheme.reach * spacing)
 
 
 def solver_of(case, ranks):
@@ -233,9 +243,9 @@ def force_on(flow, dt):
 
 def find_neighbors(flow):
     """The neighbour list of the particles as they are; of ghosts only those next to the border."""
-    radius = max(flow.stencil.radius, flow.laplacian_stencil.radius)
+    radius = flow.case.scheme.reach * flow.stencil.spacing
     particles = flow.particles
-    active = flow.unknowns
+    active = np.ones(len(particles), bool) if flow.copies else flow.unknowns
     if not getattr(flow.solver, "NEEDS_GHOST_ROWS", False):
         active &= flow.domain.within_reach(particles.position[:, 0], radius)
     flow.neighbors.build(particles.position, radius, flow.stencil.width, active)
@@ -335,8 +345,8 @@ def _correct(flow, start, dt):
 
 def _press(flow, dt):
     """u = u* - (dt/rho) grad p."""
-    particles, stencil = flow.particles, flow.stencil
-    role = walls.with_pressure(particles) if flow.extrapolates else particles.role
+    particles, stencil = flow.particles, flow.gradient_stencil
+    role = _pressing(flow)
     gradient, pressure = flow.gradient.gradient, particles.pressure
 
     def change(pairs):
@@ -354,6 +364,19 @@ def _press(flow, dt):
             )  # fmt: skip
         flow.reaction.add(change)
     particles.velocity += by_all
+
+
+def _pressing(flow):
+    """Roles by which particles have a share in the gradient; solids get the pressure they lack."""
+    particles = flow.particles
+    if flow.extrapolates:
+        return walls.with_pressure(particles)
+    if not flow.copies:
+        return particles.role
+    role = copied.fill(particles, flow.neighbors, flow.stencil.width)
+    # The nearest face of a ghost may lie beyond all ghosts.
+    flow.domain.refresh(particles.pressure, role)
+    return role
 
 
 def _stabilise(flow, stage, before, dt):

@@ -32,7 +32,8 @@ LINES = {
 def name_of(run):
     """How a panel is headed: gradient or recipe, and particle spacing."""
     scheme = run.case["scheme"]
-    recipe = {"mps": "MPS", "cmps": "CMPS"}.get(scheme["gradient"], scheme["recipe"])
+    names = {"mps": "MPS", "cmps": "CMPS", "cmps_soft": "CMPS"}
+    recipe = names.get(scheme["gradient"], scheme["recipe"])
     return f"{recipe}, $d_0$ = {1e3 * run.spacing:g} mm"
 
 

@@ -53,7 +53,7 @@ VALUES = [
     ("particles.bed", "stairs", "must be one of smooth, staircase; did you mean staircase?"),
     ("scheme.effective_radius", 1.4, "scheme.effective_radius = 1.4: must be a number from 1.5"),
     ("scheme.tolerance", 0, "scheme.tolerance = 0: must be a number > 0 and <= 0.1"),
-    ("scheme.gradient", "cmsp", "scheme.gradient = 'cmsp': must be one of cmps, corrected, gc"),
+    ("scheme.gradient", "cmsp", "scheme.gradient = 'cmsp': must be one of cmps, cmps_soft, "),
     ("scheme.gradient", "cmsp", "did you mean cmps?"),
     ("scheme.gradient", 4, "scheme.gradient = 4: must be text of one line"),
     ("scheme.source", "dens", "scheme.source = 'dens': must be one of adjoint, corrected"),
@@ -133,6 +133,11 @@ PERIODIC = {"tank.width": 0.02}
 STANDING = {"initial.type": "standing_wave", "initial.amplitude": 0.05}
 WEIGHTLESS = {"fluid.gravity": 0, "wavemaker.type": "none", "initial.amplitude": 0.01}
 SHORT_STEP = {"time.maximum": 1e-4, "time.start": 1e-3}
+WIDE = {"scheme.gradient": "symmetric", "scheme.gradient_radius": 4}
+SOLVED = {
+    "tank.width": 0, "scheme.gradient": "mps", "scheme.surface": "marked", "scheme.walls": "solved"
+}  # fmt: skip
+COPIED = SOLVED | {"scheme.walls": "copied"}
 CLASHES = [
     ({"tank.bed": [[0, 0.05], [0.8, 0.06]]}, "tank.bed = ", "at the piston: first z < tank.depth"),
     ({"tank.bed": [[0, 0.04], [0.8, 0.06]]}, "tank.bed = ", "0.04 m"),
@@ -149,6 +154,13 @@ CLASHES = [
     (PERIODIC, "tank.width = 0.02", ">= 0.0208 m, 5.2 spacings"),
     (PERIODIC | {"tank.periodic": False, "tank.width": 0.011}, "tank.width = 0.011", ">= 0.012 m"),
     ({"scheme.laplacian_radius": 4}, "tank.width = 0.032", ">= 0.036 m, 9 spacings"),
+    (WIDE, "tank.width = 0.032", ">= 0.036 m, 9 spacings"),
+    (WIDE | {"tank.width": 0, "particles.layers": 3}, "particles.layers = 3", "gradient_radius"),
+    ({"scheme.gradient_radius": 1.4}, "scheme.gradient_radius = 1.4", "0, or >= 1.5 spacings"),
+    ({"scheme.gradient_radius": 3}, "scheme.gradient_radius = 3.0", "0, or scheme.effective_radi"),
+    (SOLVED | {"scheme.gradient_radius": 2.4}, "scheme.gradient_radius = 2.4", "<= 2.3 spacings"),
+    (SOLVED | {"scheme.surface": "graded"}, "scheme.surface = 'graded'", "walls = 'solved'"),
+    (COPIED | {"scheme.surface": "graded"}, "scheme.surface = 'graded'", "walls = 'copied'"),
     ({"wavemaker.type": "file"}, "wavemaker.file = ''", "a CSV file that exists"),
     ({"wavemaker.type": "file", "wavemaker.file": "/no.csv"}, "wavemaker.file = '/no.csv'", ""),
     (STANDING, "initial.amplitude = 0.05", "> 0 and < tank.depth = 0.04 m"),
@@ -202,6 +214,8 @@ def test_box_of_water_outside_the_tank_or_empty_is_refused(changes, part):
         {"probe.1.z": 0.12},
         {"particles.spacing": 0.01, "tank.width": 0.1},
         {"tank.width": 0, "scheme.effective_radius": 6},
+        SOLVED | {"scheme.gradient_radius": 2.3},
+        COPIED | {"scheme.gradient_radius": 3.1},
     ],
 )
 def test_values_just_inside_their_range_are_taken(changes):

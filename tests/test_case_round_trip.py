@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mpslab import cases, plugins
-from mpslab.cases.checks import WIDEST_SOLVED
+from mpslab.cases.checks import NARROWEST, WIDEST_SOLVED
 from mpslab.cases.complete import complete
 from mpslab.cases.recipes import RECIPES
 from mpslab.keys import toml_name
@@ -64,8 +64,10 @@ def valid_tables(draw):
     scheme = draw(numbers_of("scheme"))
     scheme["stabiliser"] = draw(stabilisers)[: draw(st.integers(0, 3))]
     scheme["recipe"] = draw(st.sampled_from(tuple(RECIPES)))
-    if RECIPES[scheme["recipe"]]["walls"] == "solved" and "effective_radius" in scheme:
-        scheme["effective_radius"] = min(scheme["effective_radius"], WIDEST_SOLVED)
+    if RECIPES[scheme["recipe"]]["gradient"] == "corrected":
+        scheme["gradient_radius"] = 0.0
+    else:
+        scheme["gradient_radius"] = draw(st.floats(NARROWEST, WIDEST_SOLVED))
     return {
         "title": draw(line()),
         "tank": tank,

@@ -217,8 +217,11 @@ def test_standard_is_the_default_scheme():
 
 def test_recipe_paper_does_what_the_paper_does():
     scheme = cases.load_case("plunging_breaker", {"scheme.recipe": "paper"}).scheme
-    assert (scheme.gradient, scheme.source, scheme.solver) == ("cmps", "density", "piccg")
-    assert (scheme.stabiliser, scheme.laplacian_radius) == (("collision",), 3.1)
+    assert (scheme.gradient, scheme.source, scheme.solver) == ("cmps_soft", "density", "piccg")
+    assert (scheme.walls, scheme.stabiliser) == ("copied", ("collision",))
+    assert (scheme.effective_radius, scheme.gradient_radius, scheme.laplacian_radius) == (
+        2.1, 3.1, 3.1
+    )  # fmt: skip
 
 
 def test_explicit_key_wins_over_the_recipe():

@@ -37,8 +37,8 @@ def test_every_key_of_a_table_is_listed_with_unit_and_default(capsys, name):
 
 def test_models_and_what_recipes_change_are_listed(capsys):
     words = " ".join(printed(capsys, "scheme").split())
-    assert 'cmps, corrected, gc, mps, symmetric; default `"corrected"`' in words
-    assert 'with recipe paper `"cmps"`' in words
+    assert 'cmps, cmps_soft, corrected, gc, mps, symmetric; default `"corrected"`' in words
+    assert 'with recipe paper `"cmps_soft"`' in words
     assert "one of standard, paper" in words
 
 

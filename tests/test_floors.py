@@ -14,7 +14,7 @@ FLOORS = {
     4: "step timestep settling",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
     "deflation conjugate_gradient solids forcings geometry filling correction friction census "
-    "instruments gauges diagnostics parts reaction",
+    "instruments gauges diagnostics parts reaction models",
     2: "balance communicator headcount domain rebalance",
     1: "particles kinds neighbors stencil sparse slabs parameters scheme keys plugins bed paddle "
     "waves breaking stopwatch files journal lock tables series schedule memory columns core",

@@ -14,6 +14,7 @@ CONSERVATIVE = [name for name in NAMES if MODELS[name].CONSERVES_MOMENTUM]
 EXACT = [name for name in NAMES if MODELS[name].EXACT_FOR_LINEAR]
 SLOPE = np.array([3.0, -2.0, 5.0])
 RADII = [2.1, 3.1]
+CMPS = ["cmps", "cmps_soft"]
 
 
 def apply(name, position, pressure, dim, radius=2.1, role=None, width=0.0, reach=None):
@@ -46,8 +47,8 @@ def lattice_interior(name, dim, radius, offset=100.0):
     return found[inside(position, half - 2 * radius)]
 
 
-def test_five_models_are_there():
-    assert {"mps", "cmps", "symmetric", "corrected", "gc"} <= set(NAMES)
+def test_six_models_are_there():
+    assert {"mps", "cmps", "cmps_soft", "symmetric", "corrected", "gc"} <= set(NAMES)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -58,17 +59,30 @@ def test_module_states_what_it_promises(name):
 
 @pytest.mark.parametrize("radius", RADII)
 @pytest.mark.parametrize("dim", [2, 3])
-@pytest.mark.parametrize("name", [name for name in NAMES if name != "cmps"])
+@pytest.mark.parametrize("name", [name for name in NAMES if name not in CMPS])
 def test_gradient_of_linear_field_is_exact_inside_the_lattice(name, dim, radius):
     assert relative_error(lattice_interior(name, dim, radius), slope(dim)) < 1e-12
 
 
 @pytest.mark.parametrize("radius", RADII)
 @pytest.mark.parametrize("dim", [2, 3])
-def test_cmps_does_not_see_a_linear_field_inside_the_lattice(dim, radius):
-    """Equation (4) as printed: the bracket is the same for all neighbours, and their sum is 0."""
-    found = lattice_interior("cmps", dim, radius)
+@pytest.mark.parametrize("name", CMPS)
+def test_cmps_does_not_see_a_linear_field_inside_the_lattice(name, dim, radius):
+    """Equation (4): the bracket is the same for all neighbours, and their sum is 0."""
+    found = lattice_interior(name, dim, radius)
     assert np.abs(found).max() < 1e-12 * np.linalg.norm(SLOPE)
+
+
+@pytest.mark.parametrize("radius", RADII)
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("name", CMPS)
+def test_cmps_sees_the_curvature_of_the_pressure_inside_the_lattice(name, dim, radius):
+    """p = z^2/2 above z = 0: p - p^ = k z - k^2/2 with the k layers of the radius, slope k."""
+    half, layers = int(2 * radius) + 1, int(radius)
+    position = lattice(dim, half)
+    found = apply(name, position, 0.5 * (position[:, 2] + half + 1.0) ** 2, dim, radius)
+    there = inside(position, half - 2 * radius)
+    np.testing.assert_allclose(found[there], [[0.0, 0.0, layers]] * there.sum(), atol=1e-9)
 
 
 def test_cmps_sees_the_linear_field_only_near_the_surface():
@@ -150,6 +164,17 @@ def test_pair_of_particles_gives_the_printed_formula(name, dim):
     np.testing.assert_allclose(second, -PAIRS[name][1] * unit, rtol=1e-13)
 
 
+@pytest.mark.parametrize("dim", [2, 3])
+def test_pair_of_particles_gives_the_formula_of_cmps_soft(dim):
+    """(Ds/m0) (7 - 4) r_ij w/r, m0 = sum w r over the lattice; the second has the opposite."""
+    r = np.array([0.8, 0.0, 0.6]) * 1.5
+    first, second = apply("cmps_soft", np.array([0.0 * r, r]), np.array([2.0, 5.0]), dim)
+    distance = np.linalg.norm(lattice(dim, 2), axis=1)
+    m0 = (2.1 - distance[(distance > 0.0) & (distance < 2.1)]).sum()
+    np.testing.assert_allclose(first, dim / m0 * 3.0 * r / 1.5 * (2.1 / 1.5 - 1.0), rtol=1e-13)
+    np.testing.assert_array_equal(second, -first)
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_particles_beyond_the_radius_do_not_matter(name):
     """The list may reach further, for the Laplacian."""
@@ -185,7 +210,7 @@ def test_linear_momentum_of_2000_random_particles_is_conserved(name, dim):
 
 
 @pytest.mark.parametrize("dim", [2, 3])
-@pytest.mark.parametrize("name", ["cmps", "symmetric"])
+@pytest.mark.parametrize("name", [*CMPS, "symmetric"])
 def test_angular_momentum_of_central_forces_is_conserved(name, dim):
     assert torque_error(*forces(name, dim)) < 1e-13
 
@@ -204,7 +229,7 @@ def test_models_without_the_promise_do_not_conserve_momentum(name, dim):
 
 
 def test_flags_say_who_conserves_momentum():
-    assert {"cmps", "symmetric", "corrected"} <= set(CONSERVATIVE)
+    assert {"cmps", "cmps_soft", "symmetric", "corrected"} <= set(CONSERVATIVE)
     assert {"mps", "gc"}.isdisjoint(CONSERVATIVE)
 
 

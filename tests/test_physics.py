@@ -12,6 +12,7 @@ from mpslab.particles import FACE
 from mpslab.step import advance
 
 D0, DENSITY, GRAVITY = 0.002, 1000.0, 9.81
+PAPER = {"scheme.gradient": "cmps_soft", "scheme.gradient_radius": 3.1, "scheme.walls": "copied"}
 CONSERVATIVE = [
     name
     for name in plugins.names("gradients")
@@ -52,10 +53,15 @@ def test_gc_holds_still_water_without_noise():
     assert scatter < 0.005
 
 
-def test_cmps_as_printed_holds_still_water_with_several_times_its_weight_only():
-    """It does not see a linear pressure: p ~ rho g z^2/(4 d0) is what carries 20 layers."""
+def test_cmps_holds_still_water_with_several_times_its_weight_only():
+    """It does not see a linear pressure: p ~ rho g z^2/(2 k d0) is what carries 20 layers.
+
+    Here k is how many layers the radius reaches, 2 or 3: five times the weight, or 3.3 times.
+    """
     mean, _ = floor_pressure({**CLASSIC, "scheme.gradient": "cmps"})
     assert 4.0 < mean < 6.5
+    mean, _ = floor_pressure({**CLASSIC, **PAPER}, steps=150)
+    assert 3.0 < mean < 4.5
 
 
 @pytest.mark.parametrize("gradient", plugins.names("gradients"))

@@ -26,9 +26,11 @@ MOST_POINTS, MOST_PICTURES = 2000, 1000
 # Theories in which wavemaker.height is the height of the wave.
 WAVES = ("linear", "second_order", "cnoidal", "solitary")
 
-# Effective radius [spacings] up to which walls that are solved for hold the water: at 2.3 the
-# hydrostatic pressure of 20 layers is 0.97 of what it should be in 2-D, 0.95 in 3-D, at 3.1 0.75.
+# Radius [spacings] up to which walls that are solved for hold the water: at 2.3 the hydrostatic
+# pressure of 20 layers is 0.97 of what it should be in 2-D, 0.95 in 3-D, at 3.1 0.75.
 WIDEST_SOLVED = 2.3
+
+NARROWEST = 1.5  # spacings that a radius may have at the least
 
 
 def check(case: Case) -> None:
@@ -67,14 +69,30 @@ def _check_models(case):
         scheme.surface == "marked" or scheme.walls == "extrapolated",
         "scheme.surface",
         scheme.surface,
-        "marked where scheme.walls = 'solved', for dry walls need p = 0 at marked particles",
+        f"marked where scheme.walls = {scheme.walls!r}, for dry walls need p = 0 at marked "
+        "particles",
     )
+    _check_radii(scheme)
+
+
+def _check_radii(scheme):
+    radius = scheme.radius_of_gradient
+    key = "gradient_radius" if scheme.gradient_radius else "effective_radius"
+    require(radius >= NARROWEST, f"scheme.{key}", radius, f"0, or >= {NARROWEST:g} spacings")
     require(
-        scheme.effective_radius <= WIDEST_SOLVED or scheme.walls == "extrapolated",
-        "scheme.effective_radius",
-        scheme.effective_radius,
+        radius <= WIDEST_SOLVED or scheme.walls != "solved",
+        f"scheme.{key}",
+        radius,
         f"<= {WIDEST_SOLVED:g} spacings where scheme.walls = 'solved', for only the first layer of "
         "such walls has a pressure, and water that sees more of them is not held up",
+    )
+    corrects = getattr(plugins.load("gradients", scheme.gradient), "NEEDS_CORRECTION", False)
+    require(
+        radius == scheme.effective_radius or not corrects,
+        "scheme.gradient_radius",
+        radius,
+        f"0, or scheme.effective_radius = {scheme.effective_radius:g} spacings, for which "
+        f"scheme.gradient = {scheme.gradient!r} has its correction",
     )
 
 
@@ -138,12 +156,14 @@ def _check_spacing(case):
     require(count <= MOST_PARTICLES, "particles.spacing", spacing, _wider(case, count))
     most = MOST_PARTICLES * spacing
     require(tank.height <= most, "tank.height", tank.height, f"<= {most:g} m, 1e9 spacings")
-    radius = case.scheme.effective_radius
+    scheme = case.scheme
+    key = max(("effective_radius", "gradient_radius"), key=lambda name: getattr(scheme, name))
+    radius = getattr(scheme, key)
     require(
         case.particles.layers >= ceil(radius),
         "particles.layers",
         case.particles.layers,
-        f">= {ceil(radius)}, or 0, to fill scheme.effective_radius = {radius:g} spacings",
+        f">= {ceil(radius)}, or 0, to fill scheme.{key} = {radius:g} spacings",
     )
 
 
@@ -171,7 +191,7 @@ def _check_width(case):
     tank, spacing = case.tank, case.particles.spacing
     if case.dim == 2:
         return
-    radius = max(case.scheme.effective_radius, case.scheme.laplacian_radius)
+    radius = case.scheme.reach
     count, why = 3.0, "3 spacings between side walls"
     if tank.periodic:
         count = 2.0 * radius + 1.0

@@ -30,8 +30,8 @@ def complete(case: Case) -> Case:
 
 
 def least_layers(case: Case) -> int:
-    """Layers of wall and dummy particles that fill the larger radius of the scheme."""
-    return ceil(max(case.scheme.effective_radius, case.scheme.laplacian_radius))
+    """Layers of wall and dummy particles that fill the largest radius of the scheme."""
+    return ceil(case.scheme.reach)
 
 
 def largest_dt(case: Case) -> float:

@@ -17,20 +17,23 @@ RECIPES = {
         "stabiliser": ["corrected_shifting", "ds"],
         "settling": 400,
         "effective_radius": 2.1,
+        "gradient_radius": 0.0,
         "laplacian_radius": 2.1,
     },
-    # What Gotoh, Khayyer, Ikari and Hori do in the paper.
+    # What Gotoh, Khayyer, Ikari and Hori do in the paper.  Equation (4) leaves open what decides
+    # whether the wave plunges: this is the reading with which it does (docs/cmps.md).
     "paper": {
-        "gradient": "cmps",
+        "gradient": "cmps_soft",
         "source": "density",
         "projection": "predicted",
-        "walls": "solved",
+        "walls": "copied",
         "surface": "marked",
         "laplacian": "standard",
         "solver": "piccg",
         "stabiliser": ["collision"],
         "settling": 0,
         "effective_radius": 2.1,
+        "gradient_radius": 3.1,
         "laplacian_radius": 3.1,
     },
 }

@@ -6,7 +6,7 @@ Each module has one function::
 
     position : (n, 3) float64 [m];  pressure : (n,) float64 [Pa];  role : (n,) int8
     indptr, indices : rows of the neighbour list, int32
-    stencil : mpslab.stencil.Stencil
+    stencil : mpslab.stencil.Stencil, of ``scheme.gradient_radius``
     correction : (n, 6) float64, matrices of mpslab.correction; None without NEEDS_CORRECTION
     out : (n, 3) float64 [Pa/m], written for fluid particles, zero elsewhere
 

@@ -1,5 +1,7 @@
-"""Walls whose pressure continues that of the water in front of them."""
-from mpslab.kernels.pair cimport FLUID, distance, weight, wrap
+"""Pressure of walls: that of the water in front of them, or of their own first layer."""
+from libc.math cimport INFINITY
+
+from mpslab.kernels.pair cimport FACE, FILLER, FLUID, distance, weight, wrap
 from mpslab.kernels.poisson cimport coefficient
 
 
@@ -62,3 +64,27 @@ def extrapolate(const double[:, ::1] position, const signed char[::1] role,
         for i in range(indptr.shape[0] - 1):
             if total[i] > 0.0:
                 pressure[i] = 0.0 if clip and pressure[i] < 0.0 else pressure[i] / total[i]
+
+
+def nearest_face(const double[:, ::1] position, const signed char[::1] role,
+                 const int[::1] indptr, const int[::1] indices, double width, int[::1] out):
+    """Nearest face among the neighbours of each filler, the first of several; else -1, (n,)."""
+    cdef double dx, dy, dz, square, least
+    cdef Py_ssize_t i, k, j
+    with nogil:
+        for i in range(indptr.shape[0] - 1):
+            out[i] = -1
+            if role[i] != FILLER:
+                continue
+            least = INFINITY
+            for k in range(indptr[i], indptr[i + 1]):
+                j = indices[k]
+                if role[j] != FACE:
+                    continue
+                dx = position[j, 0] - position[i, 0]
+                dy = wrap(position[j, 1] - position[i, 1], width)
+                dz = position[j, 2] - position[i, 2]
+                square = dx * dx + dy * dy + dz * dz
+                if square < least:
+                    least = square
+                    out[i] = <int>j

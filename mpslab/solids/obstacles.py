@@ -39,8 +39,7 @@ def least_thickness(case):
 
     Water stands at the face at the nearest, and a particle k layers below it k + 1/2 off.
     """
-    radius = max(case.scheme.effective_radius, case.scheme.laplacian_radius)
-    return 2 * ceil(radius - 0.5)
+    return 2 * ceil(case.scheme.reach - 0.5)
 
 
 def around(case, start, end):

@@ -1,0 +1,1 @@
+"""Models of a step that a case does not choose from a family by name."""
