@@ -14,9 +14,11 @@ from mpslab.particles import ParticleSet, on_axes
 from mpslab.piston import Piston
 from mpslab.slabs import make_slabs
 from mpslab.stencil import Stencil, make_stencil
+from mpslab.timestep import pace
 
 LAYERS = 20  # of water, up to which the weight of a density error does not depend on them
 WAKING = 2.0  # sqrt(depth / gravity): in this time the density begins to count
+FURTHEST = 1.0  # spacings that a particle goes in a step
 
 
 @dataclass
@@ -37,6 +39,9 @@ class Flow:
     correction : (n, 6) float64 or None
         Matrices of `mpslab.correction` there, where a model needs them.
     time : float [s]
+    compression : float [1/s]
+        Largest rate at which the water of this rank ran together in the last step, before the
+        pressure acted.
     """
 
     case: object
@@ -53,6 +58,7 @@ class Flow:
     neighbors: NeighborList = field(default_factory=NeighborList)
     correction: np.ndarray | None = None
     time: float = 0.0
+    compression: float = 0.0
 
     @property
     def stopwatch(self):
@@ -139,14 +145,14 @@ def solver_of(case, ranks):
 def density_rate(case, time):
     """At which rate the mixed sources take back an error of the number density [1/s].
 
-    ``scheme.gamma`` is its share in a largest step, up to 20 layers of water; of more layers it
+    ``scheme.gamma`` is its share in `timestep.pace`, up to 20 layers of water; of more layers it
     is less, so that the time is always the same part of that of a wave across the depth: under
     the weight of the layers, a change of rate needs a pressure that grows with their square.
     For the same reason it begins with nothing, and is whole after the time that a wave takes for
     twice the depth: at once, it would give the water at rest a blow of several times its weight.
     """
     layers = case.tank.deepest / case.particles.spacing if case.fluid.gravity else 0.0
-    rate = case.scheme.gamma * LAYERS / max(layers, LAYERS) / case.time.maximum
+    rate = case.scheme.gamma * LAYERS / max(layers, LAYERS) / pace(case)
     waking = WAKING * math.sqrt(case.tank.deepest / case.fluid.gravity) if layers else 0.0
     s = min(time / waking, 1.0) if waking else 1.0
     return rate * s * s * (3.0 - 2.0 * s)
@@ -196,7 +202,7 @@ def _predict(flow, dt):
     gates.push(flow.case, particles, flow.time, dt)
     particles.velocity[:, 2] -= flow.case.fluid.gravity * dt * particles.fluid
     if flow.case.scheme.projection == "predicted":
-        particles.position += dt * particles.velocity * on_axes(particles.fluid)
+        particles.position += _flight(flow, dt) * on_axes(particles.fluid)
         _move_solids(flow, dt)
 
 
@@ -263,6 +269,8 @@ def _assemble(flow, graded, pull, dt):
         flow.stencil, flow.correction, dt, density_rate(flow.case, flow.time),
         flow.case.scheme, right,
     )  # fmt: skip
+    water = particles.fluid & flow.domain.owned
+    flow.compression = dt * float(right.max(initial=0.0, where=water))
     if flow.extrapolates:
         right += walls.flux(particles, neighbors, stencil, terms, pull)
     domain = flow.domain if flow.solver.BY_SLAB else None
@@ -297,7 +305,7 @@ def _correct(flow, start, dt):
         flow.stencil, flow.correction, change,
     )  # fmt: skip
     particles.velocity -= (dt / flow.case.fluid.density) * change
-    moved = start + dt * particles.velocity
+    moved = start + _flight(flow, dt)
     np.copyto(particles.position, moved, where=on_axes(particles.fluid))
     if flow.case.scheme.projection == "start":
         _move_solids(flow, dt)
@@ -306,12 +314,26 @@ def _correct(flow, start, dt):
         particles.position[:, 1] %= flow.stencil.width
 
 
+def _flight(flow, dt):
+    """u dt, but no more than a spacing [m], (n, 3).
+
+    Only what was alone before the step can be as fast: a particle that did not limit it must not
+    pass through what it meets.
+    """
+    path, furthest = dt * flow.particles.velocity, FURTHEST * flow.stencil.spacing
+    square = np.einsum("ij,ij->i", path, path)
+    far = np.flatnonzero(square > furthest**2)
+    path[far] *= (furthest / np.sqrt(square[far]))[:, np.newaxis]
+    return path
+
+
 def _stabilise(flow, stage, before, dt):
     particles, models = flow.particles, [m for m in flow.stabilisers if stage == m.STAGE]
     for model in models:
         flow.domain.refresh(particles.position, particles.velocity)
         model.stabilise(
-            particles, before, flow.neighbors, flow.stencil, flow.correction, dt, flow.case.scheme
-        )
+            particles, before, flow.neighbors, flow.stencil, flow.correction, dt,
+            pace(flow.case), flow.case.scheme,
+        )  # fmt: skip
     if models and stage == "predicted":
         flow.domain.refresh(particles.position, particles.velocity)

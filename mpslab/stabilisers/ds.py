@@ -8,7 +8,7 @@ STAGE = "corrected"
 PASSES = 2  # the second parts those whom the first pushed together; a ghost is right after one
 
 
-def stabilise(particles, before, neighbors, stencil, correction, dt, scheme):
+def stabilise(particles, before, neighbors, stencil, correction, dt, pace, scheme):
     """Remove the overlap of pairs below ``ds_distance`` (after Tsuruta et al. 2013), and the
     approach that led to it.
     """
