@@ -219,8 +219,8 @@ class Time:
     growth: float = key("dt <= growth last dt", 1.1, above=1, high=10)
     maximum: float = key(
         "largest dt; 0 for 0.4 spacing / sqrt(gravity depth), a quarter with projection "
-        "'predicted'; without gravity the largest speed at the start takes the place of the "
-        "root",
+        "'predicted', less where a gate is faster than a spacing in it; without gravity the "
+        "largest speed at the start takes the place of the root",
         0.0,
         unit="s",
         low=0,

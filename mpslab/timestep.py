@@ -53,9 +53,14 @@ def largest(case):
 
     0.4 d0 / sqrt(g h) with the largest depth h, without gravity 0.4 d0 / speed at the start; a
     quarter of it where the pressure acts at predicted positions, which damps waves by the step.
+    Less where a gate would rise by more than a spacing, down to `pace`.
     """
-    speed = wave_speed(case)
-    return LARGEST[case.scheme.projection] * case.particles.spacing / speed if speed > 0.0 else 0.0
+    speed, spacing = wave_speed(case), case.particles.spacing
+    if speed == 0.0:
+        return 0.0
+    step = LARGEST[case.scheme.projection] * spacing / speed
+    gate = max((gate.speed for gate in case.gate), default=0.0)
+    return min(step, max(spacing / gate, pace(case))) if gate > 0.0 else step
 
 
 def pace(case):

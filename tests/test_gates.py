@@ -200,7 +200,7 @@ def refusal(**changes):
         ([gate(), gate(0.038)], "gate.1.x = 0.038: must be a spacing or more off gate.0, which"),
         ([gate(speed=0.0)], "gate.0.speed = 0.0: must be a number > 0"),
         ([gate(opens=-1.0)], "gate.0.opens = -1.0: must be "),
-        ([gate(speed=1.4)], "gate.0.speed = 1.4: must be <= 1.356 m/s, a spacing in time.maximum"),
+        ([gate(speed=2.8)], "gate.0.speed = 2.8: must be <= 2.712 m/s, a spacing in time.maximum"),
         ([{"x": 0.03}], "gate.0.speed"),
     ],
 )
