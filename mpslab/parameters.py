@@ -243,12 +243,26 @@ class Time:
     """The end of the run and the limits of the time step."""
 
     end: float = key("end of the run", unit="s", above=0)
-    courant: float = key("dt <= courant spacing / largest speed", 0.2, above=0, high=1)
+    courant: float = key(
+        "dt <= courant spacing / largest speed, but for particles without neighbours; 0 for 0.4, "
+        "half with projection 'predicted'",
+        0.0,
+        low=0,
+        high=1,
+    )
+    compression: float = key(
+        "dt <= compression / largest rate at which water runs together before the pressure acts; "
+        "not with projection 'predicted'",
+        0.05,
+        above=0,
+        high=10,
+    )
     viscous: float = key("dt <= viscous spacing^2 / viscosity", 0.2, above=0, high=1)
     growth: float = key("dt <= growth last dt", 1.1, above=1, high=10)
     maximum: float = key(
-        "largest dt; 0 for 0.2 spacing / sqrt(gravity depth), half with projection 'predicted'; "
-        "without gravity the largest speed at the start takes the place of the root",
+        "largest dt; 0 for 0.4 spacing / sqrt(gravity depth), a quarter with projection "
+        "'predicted', less where a gate is faster than a spacing in it; without gravity the "
+        "largest speed at the start takes the place of the root",
         0.0,
         unit="s",
         low=0,

@@ -51,8 +51,10 @@ class Scheme:
     laplacian_radius: float = key("radius of the Laplacian", 2.1, unit="spacings", low=1.5, high=6)
     relaxation: float = key("relaxation factor of the source 'density'", 0.2, above=0, high=1)
     gamma: float = key(
-        "share of the density error that a largest step takes back, in the sources 'mixed', "
-        "'corrected' and 'adjoint'; over 20 layers of water less, 20 gamma/layers",
+        "share of the density error taken back in 0.2 spacing / sqrt(gravity depth), in the "
+        "sources 'mixed', 'corrected' and 'adjoint'; over 20 layers of water less, "
+        "20 gamma/layers; without gravity the largest speed at the start takes the place of the "
+        "root",
         0.005,
         low=0,
         high=1,
@@ -61,7 +63,11 @@ class Scheme:
         "n/n0 below which a particle is free surface, where it is marked", 0.97, above=0, high=1
     )
     shifting_strength: float = key(
-        "strength of 'shifting' and 'corrected_shifting'", 0.25, low=0, high=1
+        "share of a displacement that 'shifting' and 'corrected_shifting' take back in the same "
+        "time",
+        0.225,
+        low=0,
+        high=1,
     )
     settling: int = key(
         "passes of 'corrected_shifting' before the start, which take the water off the lattice",

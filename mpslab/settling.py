@@ -17,6 +17,7 @@ SHAKE = 0.1  # spacings: a random displacement, from which the water finds its o
 MOMENTUM = 0.9  # share of the last displacement that goes into the next
 CALM = 10  # passes without, in which the shake dies down
 LONGEST = 0.1  # spacings: displacement in a pass
+PASS = 1.0  # a pass is a pace
 SETTLED = 1e-4  # spacings: rms of the displacements, momentum aside, at which the passes end
 
 
@@ -92,7 +93,7 @@ def _shift(flow):
     start = particles.position.copy()
     matrices = correction.matrices(particles, flow.neighbors, stencil)
     corrected_shifting.stabilise(
-        particles, None, flow.neighbors, stencil, matrices, 0.0, flow.case.scheme
+        particles, None, flow.neighbors, stencil, matrices, PASS, PASS, flow.case.scheme
     )
     shift = particles.position - start
     particles.position[:] = start

@@ -157,7 +157,7 @@ class Simulation:
         self._set_up(flow, folder, found.inputs, reading, instruments)
         self.step, self.dt, self.lost = state["step"], state["dt"], state["lost"]
         self.at_start = state["at_start"]
-        self._flow.time = state["time"]
+        self._flow.time, self._flow.compression = state["time"], state.get("compression", 0.0)
         self._record.begin(self.step)
         self._record.restore(state)
         self._record.note_resume(state, found.changes, self._text, found.inputs)
@@ -330,8 +330,7 @@ class Simulation:
     def _advance(self):
         began, before = clock.perf_counter(), self.time
         check_finite(self._flow, self.step)
-        speed = max(self.domain.from_all(diagnostics.max_speed(self.particles)))
-        self.dt, limit = timestep.choose(self.case, self.dt, speed)
+        self.dt, limit = self._next_step()
         report = advance(self._flow, self.dt)
         self.step += 1
         self._flow.done = {
@@ -350,6 +349,13 @@ class Simulation:
             self._take_stock()
         with self.stopwatch.phase("record"):
             self._write_due(before)
+
+    def _next_step(self):
+        """The next time step [s], and the name of the limit that it follows from."""
+        speed = diagnostics.max_speed_together if self.step else diagnostics.max_speed
+        mine = speed(self.particles), self._flow.compression
+        speed, compression = np.max(self.domain.from_all(mine), axis=0)
+        return timestep.choose(self.case, self.dt, speed, compression)
 
     def _take_stock(self):
         """Write down where the time went since the last time and, among ranks, cut anew."""
@@ -384,6 +390,7 @@ class Simulation:
             "time": self.time,
             "step": self.step,
             "dt": self.dt,
+            "compression": max(self.domain.from_all(self._flow.compression)),
             "lost": self.lost,
             "at_start": self.at_start,
             **self._flow.solids.state(),

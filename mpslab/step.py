@@ -16,9 +16,11 @@ from mpslab.particles import ParticleSet, on_axes
 from mpslab.slabs import make_slabs
 from mpslab.solids.collection import Solids
 from mpslab.stencil import Stencil, make_stencil
+from mpslab.timestep import pace
 
 LAYERS = 20  # of water, up to which the weight of a density error does not depend on them
 WAKING = 2.0  # sqrt(depth / gravity): in this time the density begins to count
+FURTHEST = 1.0  # spacings that a particle goes in a step
 
 
 @dataclass
@@ -47,6 +49,9 @@ class Flow:
         What the gauges read last, by name [m], for what moves by it.
     reaction : mpslab.reaction.Reaction or None
         Adds up what solids give the water, where somebody asks for it.
+    compression : float [1/s]
+        Largest rate at which the water of this rank ran together in the last step, before the
+        pressure acted.
     """
 
     case: object
@@ -68,6 +73,7 @@ class Flow:
     done: dict = field(default_factory=dict)
     readings: dict = field(default_factory=dict)
     reaction: object = None
+    compression: float = 0.0
 
     @property
     def stopwatch(self):
@@ -166,14 +172,14 @@ def solver_of(case, ranks):
 def density_rate(case, time):
     """At which rate the mixed sources take back an error of the number density [1/s].
 
-    ``scheme.gamma`` is its share in a largest step, up to 20 layers of water; of more layers it
+    ``scheme.gamma`` is its share in `timestep.pace`, up to 20 layers of water; of more layers it
     is less, so that the time is always the same part of that of a wave across the depth: under
     the weight of the layers, a change of rate needs a pressure that grows with their square.
     For the same reason it begins with nothing, and is whole after the time that a wave takes for
     twice the depth: at once, it would give the water at rest a blow of several times its weight.
     """
     layers = case.tank.deepest / case.particles.spacing if case.fluid.gravity else 0.0
-    rate = case.scheme.gamma * LAYERS / max(layers, LAYERS) / case.time.maximum
+    rate = case.scheme.gamma * LAYERS / max(layers, LAYERS) / pace(case)
     waking = WAKING * math.sqrt(case.tank.deepest / case.fluid.gravity) if layers else 0.0
     s = min(time / waking, 1.0) if waking else 1.0
     return rate * s * s * (3.0 - 2.0 * s)
@@ -232,7 +238,7 @@ def _predict(flow, dt):
     flow.solids.push(particles, flow.time, dt)
     particles.velocity += dt * force_on(flow, dt) * on_axes(particles.fluid)
     if flow.case.scheme.projection == "predicted":
-        particles.position += dt * particles.velocity * on_axes(particles.fluid)
+        particles.position += _flight(flow, dt) * on_axes(particles.fluid)
         flow.solids.move(particles, flow.time, dt)
 
 
@@ -306,6 +312,8 @@ def _assemble(flow, graded, pull, dt):
         flow.stencil, flow.correction, dt, density_rate(flow.case, flow.time),
         flow.case.scheme, right,
     )  # fmt: skip
+    water = particles.fluid & flow.domain.owned
+    flow.compression = dt * float(right.max(initial=0.0, where=water))
     if flow.extrapolates:
         right += walls.flux(particles, neighbors, stencil, terms, pull)
     domain = flow.domain if flow.solver.BY_SLAB else None
@@ -334,7 +342,7 @@ def _correct(flow, start, dt):
     particles = flow.particles
     before = particles.position.copy()
     _press(flow, dt)
-    moved = start + dt * particles.velocity
+    moved = start + _flight(flow, dt)
     np.copyto(particles.position, moved, where=on_axes(particles.fluid))
     if flow.case.scheme.projection == "start":
         flow.solids.move(particles, flow.time, dt)
@@ -379,6 +387,19 @@ def _pressing(flow):
     return role
 
 
+def _flight(flow, dt):
+    """u dt, but no more than a spacing [m], (n, 3).
+
+    Only what was alone before the step can be as fast: a particle that did not limit it must not
+    pass through what it meets.
+    """
+    path, furthest = dt * flow.particles.velocity, FURTHEST * flow.stencil.spacing
+    square = np.einsum("ij,ij->i", path, path)
+    far = np.flatnonzero(square > furthest**2)
+    path[far] *= (furthest / np.sqrt(square[far]))[:, np.newaxis]
+    return path
+
+
 def _stabilise(flow, stage, before, dt):
     particles, models = flow.particles, [m for m in flow.stabilisers if stage == m.STAGE]
     for model in models:
@@ -393,7 +414,10 @@ def _part(flow, model, before, dt):
     one_pass = getattr(model, "one_pass", model.stabilise)
 
     def act(particles, pairs):
-        one_pass(particles, before, pairs, flow.stencil, flow.correction, dt, flow.case.scheme)
+        one_pass(
+            particles, before, pairs, flow.stencil, flow.correction, dt, pace(flow.case),
+            flow.case.scheme,
+        )  # fmt: skip
 
     for _ in range(getattr(model, "PASSES", 1)):
         if flow.reaction:

@@ -128,7 +128,10 @@ def test_predicted_projection_moves_the_gate_as_far():
 
 @pytest.mark.parametrize(
     ("changes", "weightless"),
-    [({}, 0.0), ({**CLASSIC, "scheme.gradient": "gc"}, 0.5 * D0)],
+    [
+        ({}, 0.0),
+        ({**CLASSIC, "scheme.gradient": "gc", "scheme.gamma": 0.01}, 0.5 * D0),
+    ],
     ids=["extrapolated", "solved"],
 )
 def test_closed_gate_holds_the_water_and_bears_its_weight(changes, weightless):

@@ -13,14 +13,14 @@ MODELS = {name: plugins.load("stabilisers", name) for name in NAMES}
 DT = 0.01
 
 
-def apply(name, particles, before=None, dim=3, reach=2.1, **changes):
-    """Run a stabiliser in place; returns the moves and the changes of velocity."""
+def apply(name, particles, before=None, dim=3, reach=2.1, dt=DT, **changes):
+    """Run a stabiliser in place, with the pace DT; returns the moves and changes of velocity."""
     position, velocity = particles.position.copy(), particles.velocity.copy()
     before = position if before is None else np.ascontiguousarray(before)
     found = neighbors_of(position, reach)
     stencil = make_stencil(dim, 1.0, 2.1)
     c = matrices_of(particles.position, particles.role, found, stencil)
-    MODELS[name].stabilise(particles, before, found, stencil, c, DT, scheme(**changes))
+    MODELS[name].stabilise(particles, before, found, stencil, c, dt, DT, scheme(**changes))
     return particles.position - position, particles.velocity - velocity
 
 
@@ -176,7 +176,7 @@ def test_ds_acts_across_a_periodic_boundary():
     particles = particles_at([[0.0, 0.1, 0.0], [0.0, 9.6, 0.0]])
     before = np.array([[0.0, 0.3, 0.0], [0.0, 9.3, 0.0]])
     found, stencil = neighbors_of(particles.position, 2.1, 10.0), make_stencil(3, 1.0, 2.1, 10.0)
-    MODELS["ds"].stabilise(particles, before, found, stencil, None, DT, scheme())
+    MODELS["ds"].stabilise(particles, before, found, stencil, None, DT, DT, scheme())
     np.testing.assert_allclose(particles.position[:, 1], [0.3, 9.4], rtol=1e-12)
 
 
@@ -324,3 +324,18 @@ def test_collision_never_adds_energy_to_a_pair():
         before = np.sum(particles.velocity**2)
         apply("collision", particles, restitution=0.2)
         assert np.sum(particles.velocity**2) <= before * (1.0 + 1e-14)
+
+
+@pytest.mark.parametrize("name", ["shifting", "corrected_shifting"])
+def test_two_short_steps_shift_a_particle_as_far_as_one_long_one(name):
+    """What is left of a displacement: (1 - strength)^(dt/pace)."""
+    moves = []
+    for dt in (0.5 * DT, DT, 2.0 * DT):
+        particles = particles_at(lattice(3, 4))
+        middle = np.flatnonzero(~particles.position.any(axis=1))
+        particles.position[middle, 0] = 0.01
+        moves.append(apply(name, particles, dt=dt, shifting_strength=0.3)[0][middle, 0].item())
+    half, _, double = 0.3 * np.array(moves) / moves[1]
+    assert moves[1] < 0.0
+    assert 1.0 - half == pytest.approx(np.sqrt(0.7), rel=1e-12)
+    assert 1.0 - double == pytest.approx(0.7**2, rel=1e-12)

@@ -4,38 +4,45 @@ import numpy as np
 import pytest
 from tanks import make_case, particles_at
 
-from mpslab import timestep
-from mpslab.diagnostics import max_speed
+from mpslab import Simulation, timestep
+from mpslab.diagnostics import max_speed, max_speed_together
 from mpslab.particles import FACE, FILLER, FIRST_SOLID, FLUID, PISTON, TANK, WATER, make_particles
 
-TIME = {"courant": 0.2, "viscous": 0.25, "growth": 1.1, "maximum": 1e-3, "start": 1e-4}
+TIME = {
+    "courant": 0.2, "compression": 0.05, "viscous": 0.25, "growth": 1.1, "maximum": 1e-3,
+    "start": 1e-4,
+}  # fmt: skip
 
 
-def case(viscosity=1e-6):
-    changes = {f"time.{key}": value for key, value in TIME.items()}
-    return make_case({"fluid.viscosity": viscosity, **changes})
+def case(viscosity=1e-6, **changes):
+    times = {f"time.{key}": value for key, value in TIME.items()}
+    return make_case({"fluid.viscosity": viscosity, **times, **changes})
 
 
-# Previous dt, largest speed, viscosity; the limit that must hold and its value. Spacing: 2 mm.
+# Previous dt, largest speed, compression, viscosity; the limit that must hold and its value.
+# Spacing: 2 mm.
 HOLDS = [
-    (0.0, 0.0, 1e-6, "start", 1e-4),
-    (0.0, 100.0, 1e-6, "courant", 0.2 * 0.002 / 100.0),
-    (2e-4, 0.1, 1e-6, "growth", 1.1 * 2e-4),
-    (1e-3, 0.1, 1e-6, "maximum", 1e-3),
-    (1e-3, 0.8, 1e-6, "courant", 0.2 * 0.002 / 0.8),
-    (1e-3, 0.1, 1e-2, "viscous", 0.25 * 0.002**2 / 1e-2),
+    (0.0, 0.0, 0.0, 1e-6, "start", 1e-4),
+    (0.0, 100.0, 0.0, 1e-6, "courant", 0.2 * 0.002 / 100.0),
+    (2e-4, 0.1, 0.0, 1e-6, "growth", 1.1 * 2e-4),
+    (1e-3, 0.1, 0.0, 1e-6, "maximum", 1e-3),
+    (1e-3, 0.8, 0.0, 1e-6, "courant", 0.2 * 0.002 / 0.8),
+    (1e-3, 0.1, 20.0, 1e-6, "maximum", 1e-3),
+    (1e-3, 0.1, 200.0, 1e-6, "compression", 0.05 / 200.0),
+    (1e-3, 0.1, 0.0, 1e-2, "viscous", 0.25 * 0.002**2 / 1e-2),
 ]
 
 
-@pytest.mark.parametrize(("previous", "speed", "viscosity", "name", "dt"), HOLDS)
-def test_least_limit_holds_and_is_named(previous, speed, viscosity, name, dt):
-    found, limit = timestep.choose(case(viscosity), previous, speed)
+@pytest.mark.parametrize(("previous", "speed", "compression", "viscosity", "name", "dt"), HOLDS)
+def test_least_limit_holds_and_is_named(previous, speed, compression, viscosity, name, dt):
+    found, limit = timestep.choose(case(viscosity), previous, speed, compression)
     assert limit == name
     assert found == pytest.approx(dt, rel=1e-14)
 
 
 def test_every_limit_is_among_those_that_can_hold():
-    found = timestep.limits(case(), 0.0, 1.0).keys() | timestep.limits(case(), 1e-4, 1.0).keys()
+    found = timestep.limits(case(), 0.0, 1.0).keys()
+    found = found | timestep.limits(case(), 1e-4, 1.0, 1.0).keys()
     assert found == {name for *_, name, _ in HOLDS}
 
 
@@ -53,6 +60,40 @@ def test_time_step_is_below_every_limit(previous, speed, viscosity):
 
 def test_fluid_without_viscosity_has_no_viscous_limit():
     assert "viscous" not in timestep.limits(case(viscosity=0.0), 1e-4, 1.0)
+
+
+def test_predicted_positions_need_no_limit_of_compression():
+    predicted = case(**{"scheme.projection": "predicted"})
+    assert "compression" not in timestep.limits(predicted, 1e-4, 1.0, 1e6)
+
+
+def test_shares_count_in_a_time_that_the_step_does_not_change():
+    """A fifth of that in which a wave goes a spacing, or the stream where nothing weighs."""
+    wave = 0.2 * 0.002 / np.sqrt(9.81 * 0.02)
+    for maximum in (0.0, 1e-4, 1e-2):
+        assert timestep.pace(make_case({"time.maximum": maximum})) == pytest.approx(wave)
+    stream = {"fluid.gravity": 0.0, "initial.type": "stream", "initial.speed": -0.5}
+    assert timestep.pace(make_case(stream)) == pytest.approx(0.2 * 0.002 / 0.5)
+    nothing = {"fluid.gravity": 0.0, "time.maximum": 0.01}
+    assert timestep.pace(make_case(nothing)) == 0.01
+
+
+@pytest.mark.parametrize(("projection", "courant", "largest"), [
+    ("start", 0.4, 0.4), ("predicted", 0.2, 0.1),
+])  # fmt: skip
+def test_limits_that_are_left_open_are_those_of_the_projection(projection, courant, largest):
+    time = make_case({"scheme.projection": projection}).time
+    assert time.courant == courant
+    assert time.maximum == pytest.approx(largest * 0.002 / np.sqrt(9.81 * 0.02))
+    assert make_case({"scheme.projection": projection, "time.courant": 0.3}).time.courant == 0.3
+
+
+@pytest.mark.parametrize("speed", [1.0, 1.5, 2.1])
+def test_gate_rises_by_a_spacing_at_most_in_the_largest_step(speed):
+    gate = {"x": 0.01, "speed": speed}
+    changes = {"gate": [gate], "water": [{"from": [0, 0, 0], "to": [0.01, 0, 0.02]}]}
+    wave = 0.4 * 0.002 / np.sqrt(9.81 * 0.02)
+    assert make_case(changes).time.maximum == pytest.approx(min(wave, 0.002 / speed))
 
 
 def test_still_water_has_no_courant_limit():
@@ -80,3 +121,64 @@ def test_speed_is_that_of_water_and_faces_that_move(role, body, speed):
 
 def test_speed_without_water_is_zero():
     assert max_speed(particles_at(np.zeros((0, 3)))) == 0.0
+
+
+def test_water_without_neighbours_does_not_count_but_faces_that_move_do():
+    particles = make_particles(np.zeros((3, 3)), [FLUID, FLUID, FACE], [WATER, WATER, PISTON])
+    particles.velocity[:, 0] = [1.0, 30.0, 2.0]
+    particles.number_density[:] = [4.0, 0.0, 0.0]
+    assert max_speed_together(particles) == 2.0
+    particles.number_density[1] = 1e-3
+    assert max_speed_together(particles) == 30.0
+
+
+DRIP = {"tank.length": 0.04, "tank.depth": 0.01, "tank.height": 0.08, "time.start": 2.5e-3}
+
+
+def drip(speed):
+    """Still water, and a particle alone above it that flies down at a speed."""
+    run = Simulation(make_case({**DRIP, "scheme.settling": 0}))
+    for _ in range(3):
+        run.advance()
+    water = np.flatnonzero(run.particles.fluid)
+    lone = water[np.argmax(run.particles.position[water, 2])]
+    run.particles.position[lone] = [0.02, 0.0, 0.05]
+    run.particles.velocity[lone] = [0.0, 0.0, -speed]
+    run.particles.number_density[lone] = 0.0
+    return run, lone
+
+
+def test_particle_alone_in_the_air_does_not_limit_the_step_of_all():
+    run, _ = drip(20.0)
+    largest = run.case.time.maximum
+    for _ in range(5):
+        run.advance()
+        assert run.dt > 0.8 * largest
+    assert run.last_row["max_speed"] == pytest.approx(20.0, rel=0.01)
+
+
+def test_fast_particle_goes_a_spacing_a_step_until_it_meets_water():
+    """Then the step is as short as its speed asks for, and nothing is lost or blown up."""
+    run, lone = drip(20.0)
+    height, met = run.particles.position[lone, 2], False
+    for _ in range(200):
+        run.advance()
+        fallen = height - run.particles.position[lone, 2]
+        assert fallen < 0.002 * 1.05 + 0.002 * met
+        height = run.particles.position[lone, 2]
+        met = met or run.particles.number_density[lone] > 0.0
+    assert met
+    assert run.lost == 0
+    water = run.particles.fluid
+    assert np.linalg.norm(run.particles.velocity[water], axis=1).max() < 20.5
+
+
+def test_free_flight_is_that_of_gravity():
+    """By steps that move a particle with the velocity of their end."""
+    run, lone = drip(0.5)
+    start, began = run.particles.position[lone, 2], run.time
+    for _ in range(10):
+        run.advance()
+    t = run.time - began
+    fallen = start - run.particles.position[lone, 2]
+    assert fallen == pytest.approx(0.5 * t + 0.5 * 9.81 * t * (t + run.dt), rel=1e-3)

@@ -1,8 +1,9 @@
 """Fills in the values of a case that follow from others, so that a run can be read off its case."""
 
 from dataclasses import replace
-from math import ceil, hypot, sqrt
+from math import ceil
 
+from mpslab import timestep
 from mpslab.parameters import Case
 
 
@@ -34,37 +35,6 @@ def least_layers(case: Case) -> int:
     return ceil(case.scheme.reach)
 
 
-def largest_dt(case: Case) -> float:
-    """Largest time step where none is given [s].
-
-    0.2 d0 / sqrt(g h) with the largest depth h, without gravity 0.2 d0 / speed at the start; half
-    of it where the pressure acts at predicted positions, which is stable up to a smaller step. 0
-    where nothing moves.
-    """
-    share = 0.1 if case.scheme.projection == "predicted" else 0.2
-    speed = sqrt(case.fluid.gravity) * sqrt(case.tank.deepest) or initial_speed(case)
-    return share * case.particles.spacing / speed if speed > 0.0 else 0.0
-
-
-def initial_speed(case: Case) -> float:
-    """Speed of a stream, or the one that `initial.rate` gives a corner of the water [m/s].
-
-    0 where the water has neither.
-    """
-    if case.initial.type == "stream":
-        return abs(case.initial.speed)
-    if case.initial.type not in ("strain", "rotation"):
-        return 0.0
-    tank = case.tank
-    boxes = [(box.start, box.end) for box in case.water] or [
-        ((0.0, 0.0, 0.0), (tank.length, tank.width, tank.depth))
-    ]
-    along, up = (
-        max(end[k] for _, end in boxes) - min(start[k] for start, _ in boxes) for k in (0, 2)
-    )
-    return 0.5 * abs(case.initial.rate) * hypot(along, up)
-
-
 def _tank(tank):
     bed = tank.bed or ((0.0, 0.0), (tank.length, 0.0))
     top = max(z for _, z in bed)
@@ -73,9 +43,10 @@ def _tank(tank):
 
 def _time(case):
     time = case.time
-    maximum = time.maximum or largest_dt(case)
+    maximum = time.maximum or timestep.largest(case)
     return replace(
         time,
+        courant=time.courant or timestep.COURANT[case.scheme.projection],
         maximum=maximum,
         start=time.start or maximum / 10.0,
         minimum=time.minimum or maximum * 1e-4,

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from mpslab import timestep
 from mpslab.cases.checks import WAVES
-from mpslab.cases.complete import largest_dt
 from mpslab.cases.contents import ROUNDING
 from mpslab.keys import shown
 from mpslab.parameters import Case
@@ -66,7 +66,7 @@ def _uneven_width(case):
 
 
 def _long_step(case):
-    limit = largest_dt(case)
+    limit = timestep.largest(case)
     if limit == 0.0 or case.time.maximum <= limit * (1.0 + ROUNDING):
         return ""
     return (

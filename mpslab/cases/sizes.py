@@ -4,7 +4,6 @@ import math
 from dataclasses import dataclass
 
 from mpslab import timestep
-from mpslab.cases.complete import initial_speed
 from mpslab.keys import require
 from mpslab.parameters import Case
 
@@ -59,7 +58,7 @@ def _step(case):
     top = max([box.end[2] for box in case.water], default=case.tank.depth)
     lowest = min(z for _, z in case.tank.bed)
     fall = math.sqrt(case.fluid.gravity) * math.sqrt(top - lowest)
-    speed = max([fall, initial_speed(case), *(gate.speed for gate in case.gate)])
+    speed = max([fall, timestep.initial_speed(case), *(gate.speed for gate in case.gate)])
     found = timestep.limits(case, math.inf, speed)
     name = min(found, key=found.get)
     return found[name], name

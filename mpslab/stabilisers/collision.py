@@ -8,7 +8,7 @@ STAGE = "predicted"
 DISTANCE = {2: 0.5, 3: 0.8}  # [spacings] where the case has none
 
 
-def stabilise(particles, before, neighbors, stencil, correction, dt, scheme):
+def stabilise(particles, before, neighbors, stencil, correction, dt, pace, scheme):
     """Let pairs below ``collision_distance`` bounce (Shibata, Murotani & Koshizuka 2014).
 
     Where the water is so thin that it has no pressure, this alone holds it above the bed.  Half-way

@@ -8,15 +8,15 @@ STAGE = "corrected"
 PASSES = 2  # the second parts those whom the first pushed together; a ghost is right after one
 
 
-def stabilise(particles, before, neighbors, stencil, correction, dt, scheme):
+def stabilise(particles, before, neighbors, stencil, correction, dt, pace, scheme):
     """Remove the overlap of pairs below ``ds_distance`` (after Tsuruta et al. 2013), and the
     approach that led to it.
     """
     for _ in range(PASSES):
-        one_pass(particles, before, neighbors, stencil, correction, dt, scheme)
+        one_pass(particles, before, neighbors, stencil, correction, dt, pace, scheme)
 
 
-def one_pass(particles, before, neighbors, stencil, correction, dt, scheme):
+def one_pass(particles, before, neighbors, stencil, correction, dt, pace, scheme):
     """Part each pair once."""
     move, change = np.empty_like(particles.position), np.empty_like(particles.velocity)
     repulsion.overlap(
