@@ -127,9 +127,7 @@ class Record:
 
     def _near_instruments(self):
         """This rank's particles within the reach of an instrument."""
-        particles, domain = self.flow.particles, self.flow.domain
-        if domain.size == 1:
-            return particles
+        particles = self.flow.particles
         near = np.zeros(len(particles), bool)
         for instrument in (*self.case.gauge, *self.case.probe):
             far = np.abs(particles.position[:, 0] - instrument.x)

@@ -136,7 +136,11 @@ class Simulation:
 
     @property
     def particles(self):
-        """The particles, a `ParticleSet` of numpy arrays."""
+        """The particles in the order of gid, a `ParticleSet` of numpy arrays.
+
+        The next step lays them in another order: ask again after it.
+        """
+        self._flow.particles = self.domain.by_gid(self._flow.particles)
         return self._flow.particles
 
     @property
@@ -266,7 +270,7 @@ class Simulation:
     def _advance(self):
         began, before = clock.perf_counter(), self.time
         check_finite(self._flow, self.step)
-        speed = max(self.domain.from_all(diagnostics.max_speed(self.particles)))
+        speed = max(self.domain.from_all(diagnostics.max_speed(self._flow.particles)))
         self.dt, limit = timestep.choose(self.case, self.dt, speed)
         report = advance(self._flow, self.dt)
         self.step += 1
@@ -291,11 +295,11 @@ class Simulation:
         laps = self.domain.from_all(self.stopwatch.lap())
         self._record.add_phases(self.step, self.time, laps)
         if self.domain.size > 1:
-            cut = self._rebalancer.cut(self.particles, laps)
+            cut = self._rebalancer.cut(self._flow.particles, laps)
             self._record.add_decomposition(step=self.step, time=self.time, **cut)
 
     def _take_out_lost(self):
-        particles = self.particles
+        particles = self._flow.particles
         lost = find_lost(self.case, particles, self._flow.piston.face(self.time))
         sides = self._record.add_lost(self.step, lost)
         self.lost += len(sides)

@@ -14,7 +14,7 @@ class PressureSystem:
     Attributes
     ----------
     row : (m + 1,) int32
-    column : (entries,) int32, in a row in the order of the particles' gid
+    column : (entries,) int32, ascending in a row
     value : (entries,) float32
     diagonal : (m,) float64
     right : (m,) float64

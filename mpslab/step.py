@@ -7,6 +7,7 @@ from types import ModuleType
 import numpy as np
 
 from mpslab import correction, friction, gates, geometry, plugins, pressure, surface, walls
+from mpslab.core.cells import make_cells
 from mpslab.domain import Domain
 from mpslab.kernels import density
 from mpslab.neighbors import NeighborList
@@ -100,7 +101,8 @@ def make_flow(case, particles, piston, width, comm=None):
     dim = 2 if case.tank.width == 0.0 else 3
     stencil = make_stencil(dim, spacing, scheme.effective_radius, width)
     laplacian_stencil = make_stencil(dim, spacing, scheme.laplacian_radius, width)
-    domain = Domain(slabs_of(case, piston.paddle), comm)
+    slabs = slabs_of(case, piston.paddle)
+    domain = Domain(slabs, comm, cells_of(case, slabs, width))
     solver = solver_of(case, domain.size)
     piston.share_out(domain.comm)
     return Flow(
@@ -120,9 +122,23 @@ def make_flow(case, particles, piston, width, comm=None):
 
 def slabs_of(case, paddle):
     """The slabs of the tank of a case with a paddle, None for a fixed wall."""
-    scheme, spacing = case.scheme, case.particles.spacing
-    radius = max(scheme.effective_radius, scheme.laplacian_radius) * spacing
-    return make_slabs(*geometry.extent(case, paddle.backmost if paddle else 0.0), radius)
+    return make_slabs(
+        *geometry.extent(case, paddle.backmost if paddle else 0.0), _farthest(case)
+    )
+
+
+def cells_of(case, slabs, width):
+    """The cells of the tank of a case, whose period is so wide [m], 0 when not periodic."""
+    tank, beyond = case.tank, case.particles.layers * case.particles.spacing
+    lower = np.array([slabs.lower, 0.0, 0.0]) - beyond
+    upper = np.array([slabs.lower, tank.width, tank.height]) + beyond
+    return make_cells(lower, upper, _farthest(case), width, slabs)
+
+
+def _farthest(case):
+    """The larger of the two radii [m]."""
+    scheme = case.scheme
+    return max(scheme.effective_radius, scheme.laplacian_radius) * case.particles.spacing
 
 
 def solver_of(case, ranks):
@@ -212,7 +228,9 @@ def find_neighbors(flow):
     active = flow.unknowns
     if not getattr(flow.solver, "NEEDS_GHOST_ROWS", False):
         active &= flow.domain.within_reach(particles.position[:, 0], radius)
-    flow.neighbors.build(particles.position, radius, flow.stencil.width, active)
+    flow.neighbors.build(
+        particles.position, radius, flow.stencil.width, active, flow.domain.cells
+    )
 
 
 def _add_viscosity(flow, dt):

@@ -17,7 +17,7 @@ FLOORS = {
     "gates friction census",
     2: "balance communicator headcount domain rebalance",
     1: "particles kinds neighbors stencil sparse slabs parameters scheme keys plugins bed paddle "
-    "waves breaking stopwatch files journal lock tables series memory columns",
+    "waves breaking stopwatch files journal lock tables series memory columns core",
     0: "kernels",
 }
 FLOOR_OF = {name: floor for floor, names in FLOORS.items() for name in names.split()}

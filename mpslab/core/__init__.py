@@ -1,0 +1,1 @@
+"""What all the rest stands on: the grid of cells."""
