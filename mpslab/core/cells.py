@@ -29,8 +29,8 @@ class Cells:
     ----------
     lower : (3,) float64 [m]
         Where the first cell begins.
-    size : (3,) float64 [m]
-        Of a cell.
+    per : (3,) float64 [1/m]
+        Cells per metre.
     count : (3,) int32
         Cells along x, y and z.
     width : float [m]
@@ -38,7 +38,7 @@ class Cells:
     """
 
     lower: np.ndarray
-    size: np.ndarray
+    per: np.ndarray
     count: np.ndarray
     width: float = 0.0
 
@@ -62,14 +62,14 @@ class Cells:
             Cells of the box along x, y and z; along a period all of them.
         """
         cell, count = np.empty(len(position), np.int32), np.empty(3, np.int32)
-        cells.assign(position, self.lower, self.size, self.count, self.width, cell, count)
+        cells.assign(position, self.lower, self.per, self.count, self.width, cell, count)
         start = np.empty(int(count.prod()) + 1, np.int32)
         cells.count(cell, start)
         return cell, start, count
 
     def reach(self, radius):
         """How many cells away a neighbour within a radius [m] may be, along x, y and z: (3,)."""
-        return np.ceil(radius / self.size).astype(np.int32)
+        return np.ceil(radius * self.per).astype(np.int32)
 
 
 def make_cells(lower, upper, radius, width=0.0, slabs=None):
@@ -89,10 +89,11 @@ def make_cells(lower, upper, radius, width=0.0, slabs=None):
         lower[1], extent[1] = 0.0, width
     count = np.fmin(np.fmax(extent / (WIDTH * radius * WIDER), 1.0), MOST).astype(np.int64)
     if slabs is not None:
-        lower[0], extent[0] = slabs.lower, slabs.width * slabs.count
-        count[0] = slabs.count * PER_SLAB
+        lower[0], count[0] = slabs.lower, slabs.count * PER_SLAB
     while count.prod(dtype=float) > MOST:  # wider cells, rather than more than memory holds
         axis = np.argmax(count * [slabs is None, 1, 1])
         count[axis] = (count[axis] + 1) // 2
-    extent = np.maximum(extent, radius)
-    return Cells(lower, extent / count, count.astype(np.int32), width)
+    per = count / np.maximum(extent, radius)
+    if slabs is not None:
+        per[0] = PER_SLAB * slabs.per
+    return Cells(lower, per, count.astype(np.int32), width)

@@ -2,9 +2,13 @@
 from libc.math cimport floor
 
 
-cdef inline int along(double x, double lower, double size, int count) noexcept nogil:
-    """Cell of a place along an axis; the outermost one outside, the first for not-a-number."""
-    cdef double c = floor((x - lower) / size)
+cdef inline int along(double x, double lower, double per, int count) noexcept nogil:
+    """Cell of a place along an axis; the outermost one outside, the first for not-a-number.
+
+    There are so many per metre.  A product, and no quotient, which fast mathematics may round one
+    way here and another way there.
+    """
+    cdef double c = floor((x - lower) * per)
     c = c if c > 0.0 else 0.0
     return <int>(c if c < count - 1.0 else count - 1.0)
 
@@ -14,7 +18,7 @@ cdef inline double folded(double y, double width) noexcept nogil:
     return y - width * floor(y / width) if width > 0.0 else y
 
 
-def assign(const double[:, ::1] position, const double[::1] lower, const double[::1] size,
+def assign(const double[:, ::1] position, const double[::1] lower, const double[::1] per,
            const int[::1] count, double width, int[::1] cell, int[::1] box):
     """Cell number of each particle, z fastest, within the least box of cells that holds them all.
 
@@ -27,9 +31,9 @@ def assign(const double[:, ::1] position, const double[::1] lower, const double[
     cdef int[3] most = [0, 0, 0]
     with nogil:
         for i in range(position.shape[0]):
-            x = along(position[i, 0], lower[0], size[0], count[0])
-            y = along(folded(position[i, 1], width), lower[1], size[1], count[1])
-            z = along(position[i, 2], lower[2], size[2], count[2])
+            x = along(position[i, 0], lower[0], per[0], count[0])
+            y = along(folded(position[i, 1], width), lower[1], per[1], count[1])
+            z = along(position[i, 2], lower[2], per[2], count[2])
             least[0], most[0] = min(least[0], x), max(most[0], x)
             least[1], most[1] = min(least[1], y), max(most[1], y)
             least[2], most[2] = min(least[2], z), max(most[2], z)
@@ -38,9 +42,9 @@ def assign(const double[:, ::1] position, const double[::1] lower, const double[
         for i in range(3):
             box[i] = max(most[i] - least[i] + 1, 1)
         for i in range(position.shape[0]):
-            x = along(position[i, 0], lower[0], size[0], count[0]) - least[0]
-            y = along(folded(position[i, 1], width), lower[1], size[1], count[1]) - least[1]
-            z = along(position[i, 2], lower[2], size[2], count[2]) - least[2]
+            x = along(position[i, 0], lower[0], per[0], count[0]) - least[0]
+            y = along(folded(position[i, 1], width), lower[1], per[1], count[1]) - least[1]
+            z = along(position[i, 2], lower[2], per[2], count[2]) - least[2]
             cell[i] = (x * box[1] + y) * box[2] + z
 
 
