@@ -6,10 +6,10 @@ pair: role and body.
 """
 
 import numpy as np
-import scipy
 
 from mpslab import bed as beds
 from mpslab import filling, gates, obstacles
+from mpslab.core.later import scipy
 from mpslab.filling import effective_length
 from mpslab.particles import FACE, FILLER, FLUID, PISTON, TANK, WATER, make_particles
 

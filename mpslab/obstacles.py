@@ -9,9 +9,9 @@ from itertools import product
 from math import ceil
 
 import numpy as np
-import scipy
 
 from mpslab import bed as beds
+from mpslab.core.later import scipy
 from mpslab.particles import FACE, FILLER, FIRST_SOLID, PISTON, TANK
 
 NEAR = 2.0  # spacings: water no further off than this presses on a wall at t = 0

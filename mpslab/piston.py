@@ -84,9 +84,9 @@ class Piston:
         moving = particles.moves_with_piston
         self.gid = particles.gid[moving]
         self.rest = particles.position[moving, 0].copy()
-        near = paddle.farthest + spacing if paddle else -np.inf
+        self.near = paddle.farthest + spacing if paddle else -np.inf
         bed = (particles.role == FACE) & (particles.body == TANK)
-        bed &= particles.position[:, 0] < near
+        bed &= particles.position[:, 0] < self.near
         self.bed = particles.gid[bed]
 
     def share_out(self, comm):
@@ -114,7 +114,8 @@ class Piston:
 
     def cover(self, particles, face):
         """Bed behind the face carries no pressure: else it would tie the corner to p = 0."""
-        rows = np.flatnonzero(np.isin(particles.gid, self.bed, kind="sort"))
+        rows = np.flatnonzero((particles.body == TANK) & (particles.position[:, 0] < self.near))
+        rows = rows[np.isin(particles.gid[rows], self.bed, kind="sort")]
         behind = particles.position[rows, 0] < face - self.margin
         particles.role[rows] = np.where(behind, FILLER, FACE)
         particles.pressure[rows[behind]] = 0.0

@@ -10,7 +10,6 @@ from mpslab import checkpoint, diagnostics, gauges
 from mpslab.columns import PROBE_QUANTITIES, STEP_COLUMNS
 from mpslab.journal import journal_of
 from mpslab.kinds import KIND_NAMES, kinds_of
-from mpslab.preflight import preflight
 from mpslab.series import Series
 
 REACH = 3.0  # spacings: no instrument sees further along the tank
@@ -208,6 +207,8 @@ class Record:
 
         Some milliseconds, whatever the size of the tank. A run that goes on works it out anew.
         """
+        from mpslab.preflight import preflight
+
         try:
             return preflight(self.case).findings
         except ValueError as error:
