@@ -14,7 +14,7 @@ class PressureSystem:
     Attributes
     ----------
     row : (m + 1,) int32
-    column : (entries,) int32, ascending in a row
+    column : (entries,) int32
     value : (entries,) float32
     diagonal : (m,) float64
     right : (m,) float64
@@ -80,6 +80,10 @@ class PressureSystem:
     def collect(self, sums):
         """Sum over the ranks of arrays in which no two ranks give to the same entry."""
         return self.domain.collect(sums) if self.domain else sums
+
+    def sort_rows(self):
+        """Put the entries of each row in the order of their columns, as a factor needs them."""
+        sparse.sort_rows(self.row, self.column, self.value)
 
     def multiply(self, x, out):
         """out = A x in this rank's rows."""
