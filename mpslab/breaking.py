@@ -7,9 +7,8 @@ crest to trough; deep-water height means the unrefracted height that linear shoa
 import math
 from collections.abc import Callable
 
-import scipy
-
 from mpslab import waves
+from mpslab.core.later import scipy
 
 # Madsen (1971): above this Ursell number the second-order crest has a false secondary crest.
 MADSEN_URSELL_LIMIT = 8.0 * math.pi**2 / 3.0

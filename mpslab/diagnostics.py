@@ -17,7 +17,7 @@ def max_speed(particles):
     """Largest speed of the water and of the faces that move [m/s]; 0 when there are none."""
     moving = (particles.role != FILLER) & (particles.body != TANK)
     square = np.einsum("ij,ij->i", particles.velocity, particles.velocity)
-    return float(np.sqrt(square.max(initial=0.0, where=moving)))
+    return float(np.sqrt(square[moving].max(initial=0.0)))
 
 
 def max_speed_together(particles):
@@ -62,5 +62,5 @@ def volume(particles, stencil, total=np.sum):
     """
     inside = particles.fluid & (particles.surface == 0) & (particles.number_density > 0.0)
     share = np.where(particles.fluid, 1.0, 0.0)
-    share[inside] = stencil.relaxed / particles.number_density[inside]
+    np.divide(stencil.relaxed, particles.number_density, out=share, where=inside)
     return particle_volume(stencil) * float(total(share))

@@ -5,6 +5,9 @@ slab on either side, its ghosts.  A slab is two influence radii wide, so that th
 owned particle's neighbours are all there: what a model computes for a ghost next to the border is
 what its owner computes, bit by bit, and models need not know about ranks.
 
+Within a step the particles lie in the order of their cells (`mpslab.core.cells`), and so slab by
+slab: what a rank owns is one piece, and so is all that it gives and gets.
+
 One process is a communicator of size one, and runs the same code.  This is the only module that
 knows of MPI.
 """
@@ -17,6 +20,7 @@ import numpy as np
 
 from mpslab import balance, headcount, rebalance
 from mpslab.communicator import Alone, Patience, finish, meet, on_root
+from mpslab.core.cells import make_cells
 from mpslab.particles import ParticleSet
 from mpslab.stopwatch import COMMUNICATION, WAITING, WORK, Stopwatch
 
@@ -60,6 +64,8 @@ class Domain:
     slabs : mpslab.slabs.Slabs
     comm : communicator, optional
         That of `world` unless given.
+    cells : mpslab.core.cells.Cells, optional
+        Into which the slabs are divided; a column along z for each quarter of one, unless given.
 
     Attributes
     ----------
@@ -68,8 +74,8 @@ class Domain:
         Rank k owns the slabs ``cuts[k]`` to ``cuts[k + 1] - 1``.
     slab : (n,) int32
         Slab of each particle, where `share_out` found it.
-    owned : (n,) bool
-        False for ghosts.
+    owned : slice
+        The particles that are no ghosts.
     stopwatch : mpslab.stopwatch.Stopwatch
         Of the step; it also counts what goes into communication and waiting.
     migrated : int
@@ -78,12 +84,14 @@ class Domain:
         How many there were in the last step.
     """
 
-    def __init__(self, slabs, comm=None):
+    def __init__(self, slabs, comm=None, cells=None):
         self.slabs = slabs
+        self.cells = make_cells([0.0] * 3, [0.0] * 3, slabs.width, slabs=slabs)
+        self.cells = cells or self.cells
         self.comm = comm or world()
         self.rank, self.size = self.comm.rank, self.comm.size
         self.cuts = balance.cut("static", np.zeros(slabs.count), self.size)
-        self.slab, self.owned = np.zeros(0, np.int32), np.zeros(0, bool)
+        self.slab, self.owned = np.zeros(0, np.int32), slice(0, 0)
         self.stopwatch, self.migrated, self.ghosts = Stopwatch(), 0, 0
         self._halo = []
 
@@ -115,9 +123,9 @@ class Domain:
             shares = [np.flatnonzero(owner == r) for r in range(self.size)]
         mine, shares[0] = np.asarray(shares[0], int), []
         if self.size > 1:
-            arrays = _merged(arrays, self._exchange(arrays, shares), mine)
+            arrays = _joined(arrays, self._exchange(arrays, shares), mine)
         self.slab = self._slab_of(arrays)
-        self.owned = np.ones(len(self.slab), bool)
+        self.owned = slice(0, len(self.slab))
         return ParticleSet(*arrays)
 
     def share_out(self, particles, *companions):
@@ -130,50 +138,61 @@ class Domain:
 
         Returns
         -------
-        particles : ParticleSet in the order of gid, ghosts among them
+        particles : ParticleSet in the order of the cells, ghosts among them
         companions : list of arrays
         """
-        if self.size == 1:
-            self.slab = self.slabs.of(particles.position[:, 0])
-            self.owned = np.ones(len(particles), bool)
-            return particles, companions
-        arrays = self._share([*arrays_of(particles), *companions])
+        arrays = [*arrays_of(particles), *companions]
+        if self.size > 1:
+            arrays = self._share(arrays)
+        order = self.cells.order(arrays[POSITION], arrays[GID])
+        arrays = [a.take(order, 0) for a in arrays]
+        self._find_halo(self._slab_of(arrays))
         count = len(fields(ParticleSet))
         return ParticleSet(*arrays[:count]), arrays[count:]
 
     def without_ghosts(self, particles):
         """The particles that this rank owns."""
-        return particles if self.owned.all() else self.keep(particles, self.owned)
+        return self.keep(particles, self.owned) if self.ghosts else particles
 
-    def keep(self, particles, mask):
-        """The particles of a mask."""
-        self.slab, self.owned = self.slab[mask], self.owned[mask]
-        return particles.take(mask)
+    def keep(self, particles, rows):
+        """The particles of a mask, index or slice; ghosts are not known from then on."""
+        self.slab = self.slab[rows]
+        self.owned = slice(0, len(self.slab))
+        return particles.take(rows)
+
+    def by_gid(self, particles):
+        """The particles of this rank in the order of gid, in which they are kept from then on."""
+        if np.all(particles.gid[1:] > particles.gid[:-1]):
+            return particles
+        return self.keep(particles, np.argsort(particles.gid))
 
     def _share(self, arrays):
-        """Arrays of what this rank owns from now on, and of its ghosts, in the order of gid."""
+        """Arrays of what this rank owns from now on, and of its ghosts, in any order."""
         owner = np.searchsorted(self.cuts, self._slab_of(arrays), side="right") - 1
         leave = [np.flatnonzero(owner == r) if r != self.rank else [] for r in range(self.size)]
         come = self._exchange(arrays, leave)
         self.migrated += sum(len(c[0]) for c in come)
-        arrays = _merged(arrays, come, np.flatnonzero(owner == self.rank))
+        arrays = _joined(arrays, come, np.flatnonzero(owner == self.rank))
         slab, send = self._slab_of(arrays), [[]] * self.size
         for r in self._beside():
             send[r] = np.flatnonzero(self._seen_by(r, slab))
-        arrays = _merged(arrays, self._exchange(arrays, send))
-        self._find_halo(self._slab_of(arrays))
-        return arrays
+        return _joined(arrays, self._exchange(arrays, send))
 
     def _find_halo(self, slab):
-        """Which particles are owned, and which are seen by the ranks beside or seen of them."""
+        """Which particles are owned, which are ghosts here, and which on a neighbouring rank."""
         self.slab = slab
-        self.owned = (self.begin <= slab) & (slab < self.end)
-        self.ghosts = int(np.count_nonzero(~self.owned))
+        first = np.searchsorted(slab, np.arange(self.slabs.count + 1)).tolist()
+
+        def between(begin, end):
+            return slice(first[max(begin, 0)], first[min(end, self.slabs.count)])
+
+        self.owned = between(self.begin, self.end)
+        self.ghosts = len(slab) - (self.owned.stop - self.owned.start)
         self._halo = []
         for r in self._beside():
-            give = np.flatnonzero(self.owned & self._seen_by(r, slab))
-            take = np.flatnonzero((self.cuts[r] <= slab) & (slab < self.cuts[r + 1]))
-            self._halo.append((r, give, take))
+            left, right = self.ghosts_of(r)
+            give = between(left, left + 1) if r > self.rank else between(right, right + 1)
+            self._halo.append((r, give, between(self.cuts[r], self.cuts[r + 1])))
 
     def _seen_by(self, rank, slab):
         """Whether a rank sees the particles in these slabs as ghosts, if it does not own them."""
@@ -218,17 +237,15 @@ class Domain:
 
     def refresh(self, *arrays):
         """Give the ghosts' rows of (n, ...) arrays the values of their owners, in place."""
+        if self.size == 1:
+            return
         with self.stopwatch.kind(COMMUNICATION):
-            requests, sent, came = [], [], []
+            requests = []
             for r, give, take in self._halo:
                 for a in arrays:
-                    came.append((a, take, np.empty((len(take), *a.shape[1:]), a.dtype)))
-                    requests.append(self.comm.Irecv(came[-1][2], r))
-                    sent.append(a.take(give, 0))
-                    requests.append(self.comm.Isend(sent[-1], r))
+                    requests.append(self.comm.Irecv(a[take], r))
+                    requests.append(self.comm.Isend(a[give], r))
             self._wait(requests)
-            for a, take, values in came:
-                a[take] = values
 
     def refresh_rows(self, x, first):
         """As `refresh` for the rows of the pressure equation; first[s] is the first of slab s."""
@@ -291,15 +308,14 @@ class Domain:
 
     def gather(self, particles):
         """The particles of all ranks in the order of gid on rank 0, None elsewhere."""
-        if self.size == 1:
-            return particles
-        arrays = arrays_of(particles)
-        mine = np.arange(len(particles))
-        come = self._exchange(arrays, [mine if self.rank else [], *[[]] * (self.size - 1)])
-        return ParticleSet(*_merged(arrays, come)) if self.rank == 0 else None
+        if self.size > 1:
+            arrays, mine = arrays_of(particles), np.arange(len(particles))
+            come = self._exchange(arrays, [mine if self.rank else [], *[[]] * (self.size - 1)])
+            particles = ParticleSet(*_joined(arrays, come))
+        return particles.take(np.argsort(particles.gid)) if self.rank == 0 else None
 
 
-POSITION = [f.name for f in fields(ParticleSet)].index("position")
+GID, POSITION = ([f.name for f in fields(ParticleSet)].index(name) for name in ("gid", "position"))
 
 
 def arrays_of(particles):
@@ -307,16 +323,10 @@ def arrays_of(particles):
     return [getattr(particles, f.name) for f in fields(particles)]
 
 
-def _merged(arrays, come, stay=None):
-    """Arrays in the order of the first one, gid: the rows that stay (all unless given), and what
-    came put in its place.
-    """
-    count = len(arrays[0])
-    stay = np.arange(count) if stay is None else stay
-    if not come and len(stay) == count:
+def _joined(arrays, come, stay=None):
+    """Arrays of the rows that stay (all unless given), and of what came."""
+    if stay is not None and len(stay) < len(arrays[0]):
+        arrays = [a.take(stay, 0) for a in arrays]
+    if not come:
         return arrays
-    both = [np.concatenate(parts) for parts in zip(arrays, *come, strict=True)]
-    gid = both[0]
-    new = count + np.argsort(gid[count:])
-    rows = np.insert(stay, np.searchsorted(gid[stay], gid[new]), new)
-    return [a.take(rows, 0) for a in both]
+    return [np.concatenate(parts) for parts in zip(arrays, *come, strict=True)]

@@ -4,24 +4,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mpslab.kernels import cells, neighbors
+from mpslab.core.cells import make_cells
+from mpslab.kernels import cells as kernels
+from mpslab.kernels import neighbors
 
-MOST_CELLS = 2**24
-
-
-def _cell_grid(lower, upper, radius, width):
-    """Number and size of the cells along x, y and z; each is at least as wide as the radius."""
-    extent = np.maximum(upper - lower, radius)
-    if width > 0.0:
-        extent[1] = width
-    count = np.maximum(np.fmin(extent / radius, MOST_CELLS).astype(np.int64), 1)
-    # A runaway particle stretches the grid: wider cells, rather than more than memory holds.
-    while count.prod(dtype=float) > MOST_CELLS:
-        count[np.argmax(count)] //= 2
-    if width > 0.0 and count[1] < 3:
-        # With two cells around, the one to the left is the one to the right.
-        count[1] = 1
-    return count.astype(np.int32), extent / count
+ROOM = 8  # particles past the last one that the search may read
 
 
 @dataclass
@@ -33,88 +20,84 @@ class NeighborList:
     indptr : (n + 1,) int32
         Row i is ``indices[indptr[i]:indptr[i + 1]]``; rows of inactive particles are empty.
     indices : (m,) int32
-        Neighbours of a row in the order of their gid, the particle itself left out.
+        Neighbours of a row, ascending, the particle itself left out.
     """
 
     indptr: np.ndarray = field(default_factory=lambda: np.zeros(1, np.int32))
     indices: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32))
-    _found: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32), repr=False)
     _indices: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32), repr=False)
+    _scratch: int = field(default=1024, repr=False)
 
-    def build(self, position, radius, width=0.0, active=None, order=None):
+    def build(self, position, radius, width=0.0, active=None, cells=None):
         """Search all pairs closer than `radius`.
 
         Parameters
         ----------
         position : (n, 3) float64 [m]
+            Particles that are in the order of the cells are searched much faster.
         radius : float [m]
         width : float [m]
             Period of the tank across (y); 0 when it is not periodic.
         active : (n,) bool, optional
             Particles that need a row; all by default.
-        order : (n,) int32, optional
-            Particles in the order of their gid; by default they are stored in that order.
+        cells : mpslab.core.cells.Cells, optional
+            Of the same period; by default those of a box around the particles.
         """
-        n = len(position)
-        if n == 0:
+        if len(position) == 0:
             self.indptr, self.indices = np.zeros(1, np.int32), np.zeros(0, np.int32)
             return self
-        active = np.ones(n, np.uint8) if active is None else active.astype(np.uint8)
-        order = np.arange(n, dtype=np.int32) if order is None else order
-        lower = position.min(axis=0)
-        if width > 0.0:
-            lower[1] = 0.0
-        count, size = _cell_grid(lower, position.max(axis=0), radius, width)
-        start, member = self._sort(_folded(position, width), lower, size, count)
-        first, used = self._search(position, member, active, start, count, radius, width)
-        self._transpose(member, order, first, used)
+        active = np.ones(len(position), bool) if active is None else active
+        if cells is None:
+            cells = make_cells(position.min(axis=0), position.max(axis=0), radius, width)
+        cell, start, count = cells.number(position)
+        if kernels.ascend(cell):
+            self._search(position, active, cells, start, count, radius)
+            return self
+        order = np.argsort(cell, kind="stable")
+        self._search(position.take(order, 0), active.take(order), cells, start, count, radius)
+        self._put_back(order)
         return self
 
-    @staticmethod
-    def _sort(position, lower, size, count):
-        cell = np.empty(len(position), np.int32)
-        cells.assign(position, lower, size, count, cell)
-        start = np.empty(int(count.prod()) + 1, np.int32)
-        member = np.empty(len(position), np.int32)
-        cells.sort(cell, start, member)
-        return start, member
-
-    def _search(self, position, member, active, start, count, radius, width):
-        packed = np.ascontiguousarray(position.take(member, 0).T)
-        first = np.empty(len(member) + 1, np.int32)
-        scratch = _most_candidates(start, count)
-        nearby, block = np.empty(scratch, np.int32), np.empty((4, scratch))
+    def _search(self, position, active, cells, start, count, radius):
+        """Rows of particles in the order of the cells."""
+        n, reach = len(position), cells.reach(radius)
+        packed = np.zeros((3, n + ROOM))
+        packed[:, :n] = position.T
+        if cells.width > 0.0:
+            packed[1] -= cells.width * np.floor(packed[1] / cells.width)
+        beside = _beside(count[1], reach[1], cells.width > 0.0)
+        self.indptr, begin = np.empty(n + 1, np.int32), np.empty(n, np.int32)
         while True:
-            used = neighbors.search(packed, member, active[member], start, count, radius,
-                                    width, first, self._found, nearby, block)
+            nearby = np.empty((2, self._scratch), np.int32)
+            used = neighbors.search(
+                packed, active.view(np.uint8), start, count, reach, beside, radius, cells.width,
+                self.indptr, self._indices, nearby, np.zeros((3, self._scratch)), begin,
+                np.empty_like(self._indices),
+            )  # fmt: skip
             if used >= 0:
-                return first, used
-            self._found = np.empty(max(2 * len(self._found), 64 * len(member), scratch), np.int32)
-
-    def _transpose(self, member, order, first, used):
-        place_of = np.empty_like(member)
-        place_of[member] = np.arange(len(member), dtype=np.int32)
-        if len(self._indices) < used:
-            self._indices = np.empty(int(1.2 * used) + 1, np.int32)
-        self.indptr = np.empty(len(member) + 1, np.int32)
+                break
+            if used == -1:
+                self._indices = np.empty(max(2 * len(self._indices), 32 * n), np.int32)
+            else:
+                self._scratch *= 2
         self.indices = self._indices[:used]
-        neighbors.transpose(order, place_of, first, self._found, self.indptr, self.indices)
+
+    def _put_back(self, order):
+        """Give rows of particles sorted by cell, and their entries, the numbers of before."""
+        row = order.repeat(np.diff(self.indptr))
+        entry = order.take(self.indices).astype(np.int32)
+        self.indices = entry[np.lexsort((entry, row))]
+        lengths = np.bincount(row, minlength=len(order))
+        self.indptr = np.append(0, np.cumsum(lengths)).astype(np.int32)
 
 
-def _folded(position, width):
-    """Positions with y brought back into the period."""
-    if width == 0.0:
-        return position
-    folded = position.copy()
-    folded[:, 1] %= width
-    return folded
-
-
-def _most_candidates(start, count):
-    """Upper bound of the particles in a block of 3 x 3 x 3 cells."""
-    inside = np.diff(start).reshape(count).astype(np.int64)
-    for axis in range(3):
-        padded = np.concatenate([inside.take([-1], axis), inside, inside.take([0], axis)], axis)
-        n = inside.shape[axis]
-        inside = sum(np.take(padded, range(s, s + n), axis) for s in range(3))
-    return int(inside.max()) + 1
+def _beside(count, reach, periodic):
+    """Cells across the tank within a reach of each, ascending and then -1: (count, .) int32."""
+    near = np.arange(count)[:, np.newaxis] + np.arange(-reach, reach + 1)
+    if periodic and count > 2 * reach:
+        return np.sort(near % count, axis=1).astype(np.int32)
+    if periodic:
+        return np.tile(np.arange(count, dtype=np.int32), (count, 1))
+    inside = np.where((near >= 0) & (near < count), near, count)
+    inside.sort(axis=1)
+    return np.where(inside < count, inside, -1).astype(np.int32)

@@ -22,7 +22,10 @@ def on_axes(mask):
 
 @dataclass
 class ParticleSet:
-    """Particles as a structure of arrays, in the order of their gid.
+    """Particles as a structure of arrays.
+
+    They are laid out and written to files in the order of gid; within a step they lie in that of
+    their cells.
 
     Attributes
     ----------
@@ -69,7 +72,9 @@ class ParticleSet:
         return self.body == PISTON
 
     def take(self, rows):
-        """The particles of a mask, index or slice, as a new set."""
+        """The particles of a mask, index or slice, as a new set; those of a slice share memory."""
+        if isinstance(rows, slice):
+            return ParticleSet(**{f.name: getattr(self, f.name)[rows] for f in fields(self)})
         rows = np.arange(len(self))[rows]
         return ParticleSet(**{f.name: getattr(self, f.name).take(rows, 0) for f in fields(self)})
 

@@ -31,7 +31,8 @@ def assemble(
     surface_pull : (n,) float64, optional
         Added to the diagonal; with it, surface particles have rows as all others.
     domain : mpslab.domain.Domain, optional
-        With it, rows are numbered by slab, and in a slab by gid; without it, by gid.
+        That of the particles; with it, the system knows its slabs. Rows are in the order of the
+        particles, and so slab by slab.
 
     Returns
     -------
@@ -44,7 +45,8 @@ def assemble(
     rows = np.flatnonzero(carries_pressure(role) & inner).astype(np.int32)
     first = None
     if domain:
-        rows, first = _by_slab(rows, domain.slab[rows], domain.slabs.count)
+        slabs_ = np.arange(domain.slabs.count + 1)
+        first = np.searchsorted(domain.slab.take(rows), slabs_).astype(np.int32)
     m, most = len(rows), len(neighbors.indices)
     unknown = np.full(len(particles), -1, np.int32)
     unknown[rows] = np.arange(m, dtype=np.int32)
@@ -68,13 +70,6 @@ def assemble(
 def cells(place, width):
     """Cell of each place [m] in y or z, so wide [m]; one that is not a number has one as well."""
     return np.fmin(np.fmax(np.floor(place / width), -FAR), FAR).astype(np.int32)
-
-
-def _by_slab(rows, slab, slabs):
-    """Rows sorted by slab, those of a slab in their old order; and the first of each slab."""
-    size = np.bincount(slab, minlength=slabs)
-    first = np.concatenate([[0], np.cumsum(size)]).astype(np.int32)
-    return rows[np.argsort(slab, kind="stable")], first
 
 
 def _hold_cut_off_rows(system, excess):

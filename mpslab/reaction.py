@@ -90,7 +90,8 @@ class Reaction:
     def end(self, flow, dt):
         """Add up the step, of all ranks, while its ghosts are still there."""
         particles, (by_all, *by_each) = flow.particles, self._changes
-        mine = (particles.fluid & flow.domain.owned)[:, np.newaxis]
+        mine = np.zeros((len(particles), 1), bool)
+        mine[flow.domain.owned, 0] = particles.fluid[flow.domain.owned]
         parts_ = [particles.velocity - self._before, self._pushed - self._before, by_all]
         for (_, about), change in zip(self.wanted, by_each, strict=True):
             parts_ += [-change, -np.cross(self._place - about, change)]

@@ -10,7 +10,6 @@ from mpslab import checkpoint
 from mpslab.columns import PHASE_COLUMNS, name_of
 from mpslab.journal import journal_of
 from mpslab.kinds import KIND_NAMES, kinds_of
-from mpslab.preflight import preflight
 from mpslab.schedule import due
 from mpslab.series import Series
 
@@ -200,6 +199,8 @@ class Record:
 
         Some milliseconds, whatever the size of the tank. A run that goes on works it out anew.
         """
+        from mpslab.preflight import preflight
+
         try:
             return preflight(self.case).findings
         except ValueError as error:

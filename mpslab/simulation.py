@@ -179,7 +179,11 @@ class Simulation:
 
     @property
     def particles(self):
-        """The particles, a `ParticleSet` of numpy arrays."""
+        """The particles in the order of gid, a `ParticleSet` of numpy arrays.
+
+        The next step lays them in another order: ask again after it.
+        """
+        self._flow.particles = self.domain.by_gid(self._flow.particles)
         return self._flow.particles
 
     @property
@@ -362,11 +366,11 @@ class Simulation:
         laps = self.domain.from_all(self.stopwatch.lap())
         self._record.add_phases(self.step, self.time, laps)
         if self.domain.size > 1:
-            cut = self._rebalancer.cut(self.particles, laps)
+            cut = self._rebalancer.cut(self._flow.particles, laps)
             self._record.add_decomposition(step=self.step, time=self.time, **cut)
 
     def _take_out_lost(self):
-        particles = self.particles
+        particles = self._flow.particles
         lost = find_lost(self.case, particles, self._flow.solids.face(self.time))
         self._flow.done["leaving"] = lost
         sides = [row[-1] for row in self._record.read("lost").get("lost", ())]

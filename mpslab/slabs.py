@@ -32,9 +32,14 @@ class Slabs:
     width: float
     count: int
 
+    @property
+    def per(self):
+        """Slabs per metre."""
+        return 1.0 / self.width
+
     def of(self, x):
         """Slab of each place x [m], (n,) int32."""
-        place = np.floor((np.asarray(x) - self.lower) / self.width)
+        place = np.floor((np.asarray(x) - self.lower) * self.per)
         # fmax and fmin, for they put a place that is not a number into a slab as well.
         return np.fmin(np.fmax(place, 0.0), self.count - 1.0).astype(np.int32)
 

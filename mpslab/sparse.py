@@ -14,7 +14,7 @@ class PressureSystem:
     Attributes
     ----------
     row : (m + 1,) int32
-    column : (entries,) int32, in a row in the order of the particles' gid
+    column : (entries,) int32
     value : (entries,) float32
     diagonal : (m,) float64
     right : (m,) float64
@@ -25,6 +25,10 @@ class PressureSystem:
         them; `multiply` and `dot` see to that.
     cell : (m, 2) int, optional
         Cell across the tank, in y and z, that the particle of each row is in.
+    begin, end : int
+        First slab whose rows are solved here, and the slab after the last one.
+    own : tuple of int
+        First row that is solved here, and the row after the last one.
     """
 
     row: np.ndarray
@@ -41,24 +45,13 @@ class PressureSystem:
             self.first = np.array([0, len(self)], np.int32)
         if self.cell is None:
             self.cell = np.zeros((len(self), 2), np.int32)
+        self.begin, self.end = 0, len(self.first) - 1
+        if self.domain:
+            self.begin, self.end = self.domain.begin, self.domain.end
+        self.own = int(self.first[self.begin]), int(self.first[self.end])
 
     def __len__(self):
         return len(self.diagonal)
-
-    @property
-    def begin(self):
-        """First slab whose rows are solved here."""
-        return self.domain.begin if self.domain else 0
-
-    @property
-    def end(self):
-        """Slab after the last one whose rows are solved here."""
-        return self.domain.end if self.domain else len(self.first) - 1
-
-    @property
-    def own(self):
-        """First row that is solved here, and the row after the last one."""
-        return int(self.first[self.begin]), int(self.first[self.end])
 
     def dot(self, x, y):
         """x . y over all ranks."""
@@ -87,6 +80,10 @@ class PressureSystem:
     def collect(self, sums):
         """Sum over the ranks of arrays in which no two ranks give to the same entry."""
         return self.domain.collect(sums) if self.domain else sums
+
+    def sort_rows(self):
+        """Put the entries of each row in the order of their columns, as a factor needs them."""
+        sparse.sort_rows(self.row, self.column, self.value)
 
     def multiply(self, x, out):
         """out = A x in this rank's rows."""

@@ -7,6 +7,7 @@ from types import ModuleType
 import numpy as np
 
 from mpslab import correction, friction, geometry, plugins, pressure, surface, walls
+from mpslab.core.cells import make_cells
 from mpslab.domain import Domain
 from mpslab.forcings import forcings_of, total
 from mpslab.kernels import density
@@ -130,8 +131,8 @@ def make_flow(case, particles, solids, width, forcings=(), comm=None):
         make_stencil(dim, spacing, radius, width)
         for radius in (scheme.effective_radius, scheme.radius_of_gradient, scheme.laplacian_radius)
     )
-    paddle = solids.piston.paddle if solids.piston else None
-    domain = Domain(slabs_of(case, paddle), comm)
+    slabs = slabs_of(case, solids.piston.paddle if solids.piston else None)
+    domain = Domain(slabs, comm, cells_of(case, slabs, width))
     solver = solver_of(case, domain.size)
     solids.begin(particles, domain.comm)
     return Flow(
@@ -153,9 +154,17 @@ def make_flow(case, particles, solids, width, forcings=(), comm=None):
 
 def slabs_of(case, paddle):
     """The slabs of the tank of a case with a paddle, None for a fixed wall."""
-    scheme, spacing = case.scheme, case.particles.spacing
     extent = geometry.extent(case, paddle.backmost if paddle else 0.0)
-    return make_slabs(*extent, scheme.reach * spacing)
+    return make_slabs(*extent, case.scheme.reach * case.particles.spacing)
+
+
+def cells_of(case, slabs, width):
+    """The cells of the tank of a case, whose period is so wide [m], 0 when not periodic."""
+    tank, spacing = case.tank, case.particles.spacing
+    beyond = case.particles.layers * spacing
+    lower = np.array([slabs.lower, 0.0, 0.0]) - beyond
+    upper = np.array([slabs.lower, tank.width, tank.height]) + beyond
+    return make_cells(lower, upper, case.scheme.reach * spacing, width, slabs)
 
 
 def solver_of(case, ranks):
@@ -254,7 +263,9 @@ def find_neighbors(flow):
     active = np.ones(len(particles), bool) if flow.copies else flow.unknowns
     if not getattr(flow.solver, "NEEDS_GHOST_ROWS", False):
         active &= flow.domain.within_reach(particles.position[:, 0], radius)
-    flow.neighbors.build(particles.position, radius, flow.stencil.width, active)
+    flow.neighbors.build(
+        particles.position, radius, flow.stencil.width, active, flow.domain.cells
+    )
 
 
 def _add_viscosity(flow, dt):
@@ -312,8 +323,8 @@ def _assemble(flow, graded, pull, dt):
         flow.stencil, flow.correction, dt, density_rate(flow.case, flow.time),
         flow.case.scheme, right,
     )  # fmt: skip
-    water = particles.fluid & flow.domain.owned
-    flow.compression = dt * float(right.max(initial=0.0, where=water))
+    mine = flow.domain.owned
+    flow.compression = dt * float(right[mine].max(initial=0.0, where=particles.fluid[mine]))
     if flow.extrapolates:
         right += walls.flux(particles, neighbors, stencil, terms, pull)
     domain = flow.domain if flow.solver.BY_SLAB else None

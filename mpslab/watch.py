@@ -33,8 +33,8 @@ def find_lost(case, particles, face):
     face : float [m]
         x of the wavemaker's face.
     """
-    spacing = case.particles.spacing
-    position = particles.position
+    suspects = np.flatnonzero(_may_be_lost(case, particles, face))
+    spacing, position = case.particles.spacing, particles.position.take(suspects, 0)
     first = "the wall at x = 0" if case.wavemaker.type == "none" else "the wavemaker"
     walls = [
         (first, position[:, 0] < face - spacing),
@@ -53,13 +53,25 @@ def find_lost(case, particles, face):
         sides.append(("through the lid", position[:, 2] > case.tank.height + 2.0 * spacing))
     if case.obstacle:
         sides.append(("into an obstacle", obstacles.deep_inside(case, position) >= 0))
-    found, seen = [], ~particles.fluid
+    found, seen = [], np.zeros(len(suspects), bool)
     for reason, outside in sides:
-        rows = np.flatnonzero(outside & ~seen)
+        rows = suspects[outside & ~seen]
         if len(rows):
             found.append(Lost(rows, reason))
             seen = seen | outside
     return found
+
+
+def _may_be_lost(case, particles, face):
+    """Mask of the water behind a wall, or lower than the highest bed: little of it, as a rule."""
+    x, y, z = particles.position.T
+    suspect = (x < face) | (x > min(effective_length(case), case.tank.length))
+    suspect |= z < max((height for _, height in case.tank.bed), default=0.0)
+    if case.tank.width > 0.0 and not case.tank.periodic:
+        suspect |= (y < 0.0) | (y > rows_across(case) * case.particles.spacing)
+    if case.obstacle:
+        suspect[:] = True
+    return suspect & particles.fluid
 
 
 def check_finite(flow, step):

@@ -8,7 +8,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
+
+from mpslab.core.later import scipy
 
 # Formulas in kh have reached their deep-water limit long before, and sinh(600) still fits a float.
 LARGEST_KH = 300.0

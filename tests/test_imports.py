@@ -6,10 +6,8 @@ import sys
 import pytest
 
 HEAVY = {
-    "scipy.spatial",
-    "scipy.optimize",
-    "scipy.special",
-    "scipy.interpolate",
+    "scipy",
+    "Cython",
     "matplotlib",
     "h5py",
     "rich",

@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tanks import neighbors_of
 
+from mpslab.core.cells import make_cells
 from mpslab.neighbors import NeighborList
 
 GRID = 1.0 / 16.0
@@ -113,15 +114,16 @@ def test_rows_ascend_and_the_relation_is_symmetric(drawn):
 
 @EXAMPLES
 @given(clouds(3, periodic=True), st.randoms(use_true_random=False))
-def test_order_gives_rows_in_gid_order(drawn, random):
+def test_rows_do_not_depend_on_whether_particles_lie_in_the_order_of_their_cells(drawn, random):
     position, radius, width = drawn
-    gid = list(range(100, 100 + len(position)))
-    random.shuffle(gid)
-    gid = np.array(gid, np.int64)
-    order = np.argsort(gid).astype(np.int32)
-    found = NeighborList().build(position, radius, width, order=order)
-    for row, wanted in zip(rows(found), brute_force(position, radius, width), strict=True):
-        np.testing.assert_array_equal(gid[row], np.sort(gid[wanted]))
+    active = np.array([random.random() < 0.6 for _ in position], bool)
+    cells = make_cells([0.0] * 3, [4.0, 6.0, 3.0], radius, width)
+    order = cells.order(position, np.arange(len(position)))
+    found = neighbors_of(position, radius, width, active)
+    by_cell = NeighborList().build(position[order], radius, width, active[order], cells)
+    assert all(np.all(np.diff(row) > 0) for row in rows(by_cell))
+    for row, i in zip(rows(by_cell), order, strict=True):
+        np.testing.assert_array_equal(np.sort(order[row]), rows(found)[i])
 
 
 def test_no_particles():

@@ -174,3 +174,17 @@ def test_resume_sets_a_damaged_frame_file_aside(tmp_path):
     assert (tmp_path / "run/particles.damaged.vtkhdf").exists()
     with h5py.File(tmp_path / "run/particles.vtkhdf") as file:
         assert len(file["VTKHDF/Steps/Values"]) == 1
+
+
+def test_particles_are_in_the_order_of_gid_and_to_look_at_them_changes_nothing():
+    case = mpslab.load_case("plunging_breaker", {**COARSE, "tank.width": 0.0})
+    seen, unseen = mpslab.Simulation(case), mpslab.Simulation(case)
+    for _ in range(5):
+        seen.advance()
+        unseen.advance()
+        assert np.all(np.diff(seen.particles.gid) > 0)
+    assert np.any(np.diff(unseen._flow.particles.gid) < 0)
+    for key in ("volume", "kinetic_energy", "piston_force"):
+        assert seen.last_row[key] == unseen.last_row[key]
+    for name, array in vars(seen.particles).items():
+        assert array.tobytes() == getattr(unseen.particles, name).tobytes(), name

@@ -1,1 +1,1 @@
-"""What all parts of the package stand on."""
+"""What all the rest stands on: the lattice, the grid of cells, and how libraries are loaded."""

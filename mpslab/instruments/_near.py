@@ -13,8 +13,7 @@ def read_near(flow, places, reach, read):
         Along the tank.
     reach : float [m]
     read : callable
-        Gets a `ParticleSet` in the order of gid, on rank 0 alone, and returns a list. On one rank,
-        all particles are in the set.
+        Gets a `ParticleSet` in the order of gid, on rank 0 alone, and returns a list.
 
     Returns
     -------
@@ -31,8 +30,6 @@ def read_near(flow, places, reach, read):
 def _near(flow, places, reach):
     """This rank's particles within the reach of a place."""
     particles = flow.particles
-    if flow.domain.size == 1:
-        return particles
     near = np.zeros(len(particles), bool)
     for x in places:
         near |= np.abs(particles.position[:, 0] - x) < reach

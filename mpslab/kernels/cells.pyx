@@ -1,24 +1,55 @@
-"""Linked cells: sort particles into boxes as wide as the search radius."""
+"""Linked cells: sort particles into the boxes of a grid."""
 from libc.math cimport floor
 
 
-def assign(const double[:, ::1] position, const double[::1] lower, const double[::1] width,
-           const int[::1] count, int[::1] cell):
-    """Cell number of each particle, z fastest; positions outside count to the outermost cell."""
-    cdef Py_ssize_t i, a
-    cdef int number, c
+cdef inline int along(double x, double lower, double per, int count) noexcept nogil:
+    """Cell of a place along an axis; the outermost one outside, the first for not-a-number.
+
+    There are so many per metre.  A product, and no quotient, which fast mathematics may round one
+    way here and another way there.
+    """
+    cdef double c = floor((x - lower) * per)
+    c = c if c > 0.0 else 0.0
+    return <int>(c if c < count - 1.0 else count - 1.0)
+
+
+cdef inline double folded(double y, double width) noexcept nogil:
+    """A place across the tank brought back into the period; width = 0 means no periodicity."""
+    return y - width * floor(y / width) if width > 0.0 else y
+
+
+def assign(const double[:, ::1] position, const double[::1] lower, const double[::1] per,
+           const int[::1] count, double width, int[::1] cell, int[::1] box):
+    """Cell number of each particle, z fastest, within the least box of cells that holds them all.
+
+    width : period along y, 0 for none; the box is then as wide
+    box : (3,) out, cells of the box along each axis
+    """
+    cdef Py_ssize_t i
+    cdef int x, y, z
+    cdef int[3] least = [count[0], count[1], count[2]]
+    cdef int[3] most = [0, 0, 0]
     with nogil:
         for i in range(position.shape[0]):
-            number = 0
-            for a in range(3):
-                c = <int>floor((position[i, a] - lower[a]) / width[a])
-                c = 0 if c < 0 else (count[a] - 1 if c >= count[a] else c)
-                number = number * count[a] + c
-            cell[i] = number
+            x = along(position[i, 0], lower[0], per[0], count[0])
+            y = along(folded(position[i, 1], width), lower[1], per[1], count[1])
+            z = along(position[i, 2], lower[2], per[2], count[2])
+            least[0], most[0] = min(least[0], x), max(most[0], x)
+            least[1], most[1] = min(least[1], y), max(most[1], y)
+            least[2], most[2] = min(least[2], z), max(most[2], z)
+        if width > 0.0:
+            least[1], most[1] = 0, count[1] - 1
+        for i in range(3):
+            box[i] = max(most[i] - least[i] + 1, 1)
+        for i in range(position.shape[0]):
+            x = along(position[i, 0], lower[0], per[0], count[0]) - least[0]
+            y = along(folded(position[i, 1], width), lower[1], per[1], count[1]) - least[1]
+            z = along(position[i, 2], lower[2], per[2], count[2]) - least[2]
+            cell[i] = (x * box[1] + y) * box[2] + z
 
 
-def sort(const int[::1] cell, int[::1] start, int[::1] member):
-    """Counting sort: member[start[c]:start[c + 1]] are the particles of cell c, in order."""
+def count(const int[::1] cell, int[::1] start):
+    """start[c] = how many particles are in cells before c."""
     cdef Py_ssize_t i
     cdef int c, here, total = 0
     with nogil:
@@ -29,9 +60,31 @@ def sort(const int[::1] cell, int[::1] start, int[::1] member):
             here = start[c]
             start[c] = total
             total += here
+
+
+def sort(const int[::1] cell, const long long[::1] gid, int[::1] start, int[::1] order):
+    """order = the particles cell by cell, in a cell by gid; `start`, as of `count`, is used up."""
+    cdef Py_ssize_t i, place
+    cdef int c, first
+    with nogil:
         for i in range(cell.shape[0]):
-            member[start[cell[i]]] = <int>i
-            start[cell[i]] += 1
-        for c in range(start.shape[0] - 1, 0, -1):
-            start[c] = start[c - 1]
-        start[0] = 0
+            c = cell[i]
+            place = start[c]
+            start[c] += 1
+            order[place] = <int>i
+        for place in range(1, cell.shape[0]):
+            i, c = place, order[place]
+            while i > 0 and cell[order[i - 1]] == cell[c] and gid[order[i - 1]] > gid[c]:
+                order[i] = order[i - 1]
+                i -= 1
+            order[i] = c
+
+
+def ascend(const int[::1] cell):
+    """Whether no cell is before that of the particle before."""
+    cdef Py_ssize_t i
+    cdef bint sorted_ = True
+    with nogil:
+        for i in range(1, cell.shape[0]):
+            sorted_ &= cell[i - 1] <= cell[i]
+    return sorted_

@@ -1,117 +1,183 @@
-"""Neighbour search over linked cells.
+"""Neighbour search over the cells of a grid, whose particles lie one after the other.
 
-The search visits the particles cell by cell and writes, for each particle, its *active*
-neighbours in the order in which it meets them.  Reading those lists back particle by particle
-and handing each entry to its partner gives the rows of the active particles, sorted, without a
-sort: the relation is symmetric.
+The search goes along x, row after row of cells.  From one cell to the next, the particles that may
+be neighbours change by one layer of cells: they lie in a scratch one after the other, and a layer
+is added at its end.
 """
-from mpslab.kernels.pair cimport wrap
+from libc.math cimport rint
+from libc.string cimport memcpy
+
+cdef enum:
+    LANES = 8  # particles that are copied, and whose distances are taken, together
+    STRETCH = 16  # cells along x after which the rows found so far go to their places
 
 
-cdef inline int column(int c, int shift, int count, bint periodic) noexcept nogil:
-    """Cell index beside c, -1 where there is none."""
-    cdef int beside = c + shift
-    if periodic:
-        return beside + count if beside < 0 else (beside - count if beside >= count else beside)
-    return -1 if beside < 0 or beside >= count else beside
+def search(const double[:, ::1] packed, const unsigned char[::1] active, const int[::1] start,
+           const int[::1] count, const int[::1] reach, const int[:, ::1] beside, double radius,
+           double width, int[::1] indptr, int[::1] indices, int[:, ::1] nearby,
+           double[:, ::1] block, int[::1] begin, int[::1] found):
+    """Rows of the neighbours of the active particles, each ascending.
 
+    packed : (3, n + LANES) positions in the order of the cells, and room
+    active : (n,) 1 for particles that need a row
+    start : (cells + 1,) first particle of each cell
+    count, reach : (3,) cells of the grid, and how many of them away neighbours may be
+    beside : (count[1], .) cells across the tank with neighbours of each, ascending, then -1
+    indptr : (n + 1,) out, indices : out
+    nearby : (2, .) scratch, the candidates, and 1 for those that are near
+    block : (3, .) scratch, the coordinates of the candidates
+    begin : (n,), found : scratch, rows in the order in which they are found; as long as `indices`
 
-def search(const double[:, ::1] packed, const int[::1] member, const unsigned char[::1] active,
-           const int[::1] start, const int[::1] count, double radius, double width,
-           int[::1] first, int[::1] found, int[::1] nearby, double[:, ::1] block):
-    """List the active neighbours of every particle.
-
-    packed : (3, n) positions in cell order
-    member : (n,) particle at each place of the cell order
-    active : (n,) 1 for particles that need a row, in cell order
-    first : (n + 1,) out: first entry of each place in `found`
-    found : out: particle numbers
-    nearby : scratch, the candidates of one cell; block : (4, .) scratch, their coordinates and
-        squared distances, copied together so that the distances are computed in vector lanes
-
-    Returns the number of entries written, or -1 when `found` is too short.
+    Returns the number of entries written; -1 when `indices` is too short, -2 when `block` is.
     """
-    cdef Py_ssize_t place, m, candidates
-    cdef int cx, cy, sx, sy, kx, ky, cz, lo, hi, base, c, written = 0
-    cdef int side = 0 if count[1] == 1 else 1
-    cdef int capacity = <int>found.shape[0]
-    cdef bint periodic = width > 0.0
-    cdef double x, y, z, dx, dy, dz, limit = radius * radius
-    cdef bint overflow = False
+    cdef int x, y, z, end = 0, plane = count[1] * count[2]
+    cdef Py_ssize_t first = 0, last, i, used, total = 0, capacity = indices.shape[0]
     with nogil:
-        for cx in range(count[0]):
-            for cy in range(count[1]):
-                for cz in range(count[2]):
-                    c = (cx * count[1] + cy) * count[2] + cz
-                    if start[c] == start[c + 1]:
-                        continue
-                    candidates = 0
-                    for sx in range(-1, 2):
-                        kx = column(cx, sx, count[0], False)
-                        if kx < 0:
-                            continue
-                        for sy in range(-side, side + 1):
-                            ky = column(cy, sy, count[1], periodic)
-                            if ky < 0:
-                                continue
-                            base = (kx * count[1] + ky) * count[2]
-                            lo = start[base + (cz - 1 if cz > 0 else 0)]
-                            hi = start[base + (cz + 2 if cz + 2 < count[2] else count[2])]
-                            for m in range(lo, hi):
-                                nearby[candidates] = <int>m
-                                candidates += active[m]
-                    for m in range(candidates):
-                        block[0, m] = packed[0, nearby[m]]
-                        block[1, m] = packed[1, nearby[m]]
-                        block[2, m] = packed[2, nearby[m]]
-                    for place in range(start[c], start[c + 1]):
-                        first[place] = written
-                        if written + candidates > capacity:
-                            overflow = True
-                            break
-                        x, y, z = packed[0, place], packed[1, place], packed[2, place]
-                        for m in range(candidates):
-                            dx = block[0, m] - x
-                            dy = wrap(block[1, m] - y, width)
-                            dz = block[2, m] - z
-                            block[3, m] = dx * dx + dy * dy + dz * dz
-                        for m in range(candidates):
-                            found[written] = member[nearby[m]]
-                            written += (block[3, m] < limit) & (nearby[m] != place)
-                    if overflow:
-                        break
-                if overflow:
-                    break
-            if overflow:
+        while end < count[0]:
+            x, end = end, min(end + STRETCH, count[0])
+            last = start[end * plane]
+            used = 0
+            for y in range(count[1]):
+                for z in range(count[2]):
+                    if used >= 0:
+                        used = walk(packed, active, start, count, reach, beside, radius, width,
+                                    x, end, y, z, indptr, nearby, block, begin, found, used)
+            if used < 0 or total + used > capacity:
+                total = min(used, -1)
                 break
-        first[member.shape[0]] = written
-    return -1 if overflow else written
+            for i in range(first, last):
+                used = indptr[i]
+                indptr[i] = <int>total
+                memcpy(&indices[total], &found[begin[i]], used * sizeof(int))
+                total += used
+            first = last
+            indptr[first] = <int>total
+    return total
 
 
-def transpose(const int[::1] order, const int[::1] place_of, const int[::1] first,
-              const int[::1] found, int[::1] indptr, int[::1] indices):
-    """Rows of the active particles, each in the order in which `order` lists the particles.
+cdef Py_ssize_t walk(const double[:, ::1] packed, const unsigned char[::1] active,
+                     const int[::1] start, const int[::1] count, const int[::1] reach,
+                     const int[:, ::1] beside, double radius, double width, int x, int end, int y,
+                     int z, int[::1] length, int[:, ::1] nearby, double[:, ::1] block,
+                     int[::1] begin, int[::1] found, Py_ssize_t used) noexcept nogil:
+    """Rows of the particles in the cells from x to end along a line; returns the entries used.
 
-    place_of : (n,) place of each particle in the cell order
-    indptr : (n + 1,) out, indices : (m,) out
+    length, begin : (n,) out, where each row lies in `found`
     """
-    cdef Py_ssize_t k, i, e
-    cdef int here, total = 0
-    cdef Py_ssize_t n = indptr.shape[0] - 1
-    with nogil:
-        indptr[:] = 0
-        for e in range(indices.shape[0]):
-            indptr[found[e]] += 1
-        for i in range(n):
-            here = indptr[i]
-            indptr[i] = total
-            total += here
-        indptr[n] = total
-        for k in range(order.shape[0]):
-            i = order[k]
-            for e in range(first[place_of[i]], first[place_of[i] + 1]):
-                indices[indptr[found[e]]] = <int>i
-                indptr[found[e]] += 1
-        for i in range(n, 0, -1):
-            indptr[i] = indptr[i - 1]
-        indptr[0] = 0
+    cdef int[2 * STRETCH] layer  # where each layer of candidates begins; room for all within reach
+    cdef int cx, c, low, high, next = 0, lowest = max(x - reach[0], 0)
+    cdef Py_ssize_t i, m, filled = 0, own
+    cdef Py_ssize_t room = nearby.shape[1] - LANES, capacity = found.shape[0]
+    cdef bint wanted
+    for cx in range(x, end):
+        c = (cx * count[1] + y) * count[2] + z
+        wanted = False
+        for i in range(start[c], start[c + 1]):
+            begin[i] = length[i] = 0
+            wanted |= active[i]
+        if not wanted:
+            continue
+        low, high = max(cx - reach[0], 0), min(cx + reach[0] + 1, count[0])
+        next = max(next, low)
+        while next < high:
+            layer[next - lowest] = <int>filled
+            filled = add_layer(packed, start, count, reach, beside, next, y, z, nearby, block,
+                               filled, room)
+            if filled > room:
+                return -2
+            next += 1
+        m = layer[low - lowest]
+        own = layer[cx - lowest] + ahead(start, count, reach, beside, cx, y, z)
+        for i in range(start[c], start[c + 1]):
+            if not active[i]:
+                own += 1
+                continue
+            if used + filled - m + LANES > capacity:
+                return -1
+            mark(block, m, filled, packed[0, i], packed[1, i], packed[2, i], radius * radius,
+                 width, nearby)
+            nearby[1, own] = 0
+            own += 1
+            begin[i] = <int>used
+            used = pick(nearby, m, filled, found, used)
+            length[i] = <int>used - begin[i]
+    return used
+
+
+cdef Py_ssize_t add_layer(const double[:, ::1] packed, const int[::1] start,
+                          const int[::1] count, const int[::1] reach, const int[:, ::1] beside,
+                          int x, int y, int z, int[:, ::1] nearby, double[:, ::1] block,
+                          Py_ssize_t filled, Py_ssize_t room) noexcept nogil:
+    """Append the particles in the cells around (y, z) at x; returns how many there are now."""
+    cdef int low = max(z - reach[2], 0), high = min(z + reach[2] + 1, count[2]), base
+    cdef Py_ssize_t s, m, k, end
+    for s in range(beside.shape[1]):
+        if beside[y, s] < 0:
+            break
+        base = (x * count[1] + beside[y, s]) * count[2]
+        m, end = start[base + low], start[base + high]
+        while m < end:
+            if filled > room:
+                return filled
+            memcpy(&block[0, filled], &packed[0, m], LANES * sizeof(double))
+            memcpy(&block[1, filled], &packed[1, m], LANES * sizeof(double))
+            memcpy(&block[2, filled], &packed[2, m], LANES * sizeof(double))
+            for k in range(LANES):
+                nearby[0, filled + k] = <int>(m + k)
+            filled += min(end - m, LANES)
+            m += LANES
+    return filled
+
+
+cdef inline Py_ssize_t ahead(const int[::1] start, const int[::1] count, const int[::1] reach,
+                             const int[:, ::1] beside, int x, int y, int z) noexcept nogil:
+    """How many particles of a layer come before those of the cell in its middle."""
+    cdef int low = max(z - reach[2], 0), high = min(z + reach[2] + 1, count[2]), base
+    cdef Py_ssize_t s, before = 0
+    for s in range(beside.shape[1]):
+        base = (x * count[1] + beside[y, s]) * count[2]
+        if beside[y, s] == y:
+            return before + start[base + z] - start[base + low]
+        before += start[base + high] - start[base + low]
+    return before
+
+
+cdef inline void mark(const double[:, ::1] block, Py_ssize_t first, Py_ssize_t end, double x,
+                      double y, double z, double limit, double width,
+                      int[:, ::1] nearby) noexcept nogil:
+    """Mark the candidates whose squared distance from a place is below the limit.
+
+    All of them in full lanes, the last ones with what lies behind: so a pair has the same distance
+    from either side, to the last bit.
+    """
+    cdef Py_ssize_t m
+    cdef double dx, dy, dz, around
+    end = first + (end - first + LANES - 1) // LANES * LANES
+    if width == 0.0:
+        for m in range(first, end):
+            dx = block[0, m] - x
+            dy = block[1, m] - y
+            dz = block[2, m] - z
+            nearby[1, m] = dx * dx + dy * dy + dz * dz < limit
+    else:
+        around = 1.0 / width
+        for m in range(first, end):
+            dx = block[0, m] - x
+            dy = block[1, m] - y
+            dy = dy - width * rint(dy * around)
+            dz = block[2, m] - z
+            nearby[1, m] = dx * dx + dy * dy + dz * dz < limit
+
+
+cdef inline Py_ssize_t pick(int[:, ::1] nearby, Py_ssize_t first, Py_ssize_t end,
+                            int[::1] found, Py_ssize_t used) noexcept nogil:
+    """Append the candidates that are marked, without a branch; returns the entries used."""
+    cdef Py_ssize_t m = first, k
+    for k in range(end, end + LANES):
+        nearby[1, k] = 0
+    while m < end:
+        for k in range(LANES):
+            found[used] = nearby[0, m + k]
+            used += nearby[1, m + k]
+        m += LANES
+    return used

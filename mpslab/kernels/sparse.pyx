@@ -58,6 +58,21 @@ def xpay(const double[::1] x, double a, double[::1] y):
             y[i] = x[i] + a * y[i]
 
 
+def sort_rows(const int[::1] row, int[::1] column, float[::1] value):
+    """Put the entries of each row in the order of their columns, in place."""
+    cdef Py_ssize_t i
+    cdef int k, e, c
+    cdef float v
+    with nogil:
+        for i in range(row.shape[0] - 1):
+            for k in range(row[i] + 1, row[i + 1]):
+                c, v, e = column[k], value[k], k
+                while e > row[i] and column[e - 1] > c:
+                    column[e], value[e] = column[e - 1], value[e - 1]
+                    e -= 1
+                column[e], value[e] = c, v
+
+
 def lower_ends(const int[::1] row, const int[::1] column, int[::1] end):
     """End of the part left of the diagonal in each row (columns ascend)."""
     cdef Py_ssize_t i

@@ -9,10 +9,10 @@ from itertools import product
 from math import ceil
 
 import numpy as np
-import scipy
 
 from mpslab import bed as beds
 from mpslab.core import lattice
+from mpslab.core.later import scipy
 from mpslab.particles import FACE, FILLER, FIRST_SOLID, PISTON
 from mpslab.solids.solid import Solid
 

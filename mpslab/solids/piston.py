@@ -82,7 +82,8 @@ class Piston(Solid):
     def __init__(self, case, tank, paddle=None):
         super().__init__("piston")
         self.tank, self.paddle = tank, paddle
-        self.margin, self.spacing = 0.75 * case.particles.spacing, case.particles.spacing
+        self.margin = 0.75 * case.particles.spacing
+        self.near = paddle.farthest + case.particles.spacing if paddle else -np.inf
         self.gid, self.rest, self.bed = np.zeros(0, int), np.zeros(0), np.zeros(0, int)
 
     def particles(self, case):
@@ -103,7 +104,7 @@ class Piston(Solid):
         self.gid = particles.gid[moving]
         self.rest = particles.position[moving, 0].copy()
         bed = (particles.role == FACE) & (particles.body == TANK)
-        bed &= particles.position[:, 0] < self.paddle.farthest + self.spacing
+        bed &= particles.position[:, 0] < self.near
         self.bed = particles.gid[bed]
 
     def state(self):
@@ -136,7 +137,8 @@ class Piston(Solid):
 
     def cover(self, particles, face):
         """Bed behind the face carries no pressure: else it would tie the corner to p = 0."""
-        rows = np.flatnonzero(np.isin(particles.gid, self.bed, kind="sort"))
+        rows = np.flatnonzero((particles.body == TANK) & (particles.position[:, 0] < self.near))
+        rows = rows[np.isin(particles.gid[rows], self.bed, kind="sort")]
         behind = particles.position[rows, 0] < face - self.margin
         particles.role[rows] = np.where(behind, FILLER, FACE)
         particles.pressure[rows[behind]] = 0.0

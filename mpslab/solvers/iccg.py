@@ -10,6 +10,7 @@ BY_SLAB = False  # each row waits for the one before it: on one rank only
 
 def solve(system, x, tolerance, max_iterations):
     """Solve A x = b with A ~ (I + L) D (I + L)^T, no fill; see :mod:`mpslab.solvers`."""
+    system.sort_rows()
     m = len(system)
     end, work = np.empty(m, np.int32), np.zeros(m)
     factor, pivot = np.empty(len(system.value)), np.empty(m)

@@ -27,6 +27,7 @@ class Factor:
     """Incomplete factor of the whole matrix: no coupling between slabs or ranks is dropped."""
 
     def __init__(self, system):
+        system.sort_rows()
         m, entries = len(system), len(system.value)
         self.system = system
         self.lower, self.middle = np.empty(m + 1, np.int32), np.empty(m, np.int32)
