@@ -6,9 +6,9 @@ from types import ModuleType
 
 import numpy as np
 
-from mpslab import correction, friction, gates, geometry, plugins, pressure, surface, walls
+from mpslab import friction, gates, geometry, plugins, pressure, surface, walls
+from mpslab.core.neighbourhood import Neighbourhood
 from mpslab.domain import Domain
-from mpslab.kernels import density
 from mpslab.neighbors import NeighborList
 from mpslab.particles import ParticleSet, on_axes
 from mpslab.piston import Piston
@@ -34,8 +34,8 @@ class Flow:
     domain : Domain
     neighbors : NeighborList
         Where the pressure acted last.
-    correction : (n, 6) float64 or None
-        Matrices of `mpslab.correction` there, where a model needs them.
+    near : Neighbourhood
+        The same pairs with their geometry.
     time : float [s]
     """
 
@@ -50,8 +50,8 @@ class Flow:
     solver: ModuleType
     pair_terms: tuple
     stabilisers: tuple
+    near: Neighbourhood
     neighbors: NeighborList = field(default_factory=NeighborList)
-    correction: np.ndarray | None = None
     time: float = 0.0
 
     @property
@@ -68,13 +68,6 @@ class Flow:
     def unknowns(self):
         """Mask of the particles whose pressure is an unknown of the equation, (n,) bool."""
         return self.particles.fluid if self.extrapolates else self.particles.carries_pressure
-
-    @property
-    def needs_correction(self):
-        """Whether a model works with the correction matrices."""
-        models = (self.gradient, self.source, *self.stabilisers)
-        wanted = any(getattr(model, "NEEDS_CORRECTION", False) for model in models)
-        return wanted or self.case.scheme.smagorinsky > 0.0
 
 
 def make_flow(case, particles, piston, width, comm=None):
@@ -115,6 +108,7 @@ def make_flow(case, particles, piston, width, comm=None):
         solver=solver,
         pair_terms=plugins.load("laplacians", scheme.laplacian).pair_terms(laplacian_stencil),
         stabilisers=tuple(plugins.load("stabilisers", name) for name in scheme.stabiliser),
+        near=Neighbourhood(stencil),
     )
 
 
@@ -168,10 +162,10 @@ def advance(flow, dt):
     with watch.phase("neighbours"):
         find_neighbors(flow)
     with watch.phase("operators"):
-        if flow.needs_correction:
-            flow.correction = correction.matrices(particles, flow.neighbors, flow.stencil)
+        measure(flow)
         _add_viscosity(flow, dt)
-        _stabilise(flow, "predicted", particles.position, dt)
+        if _stabilise(flow, "predicted", dt):
+            measure(flow)
         graded = find_surface(flow)
     pull = walls.pull(particles, before, flow.case.fluid.gravity, dt)
     with watch.phase("assembly"):
@@ -215,60 +209,52 @@ def find_neighbors(flow):
     flow.neighbors.build(particles.position, radius, flow.stencil.width, active)
 
 
+def measure(flow):
+    """The geometry of the pairs in the list, and the number density, with the particles as are."""
+    everywhere = np.ones(len(flow.particles), bool) if flow.extrapolates else None
+    flow.near.measure(flow.particles, flow.neighbors, everywhere)
+    flow.particles.number_density[:] = flow.near.number_density
+
+
 def _add_viscosity(flow, dt):
     """u* = u' + nu <lap u> dt; its share of r* is of second order in dt and left out."""
     fluid, scheme = flow.case.fluid, flow.case.scheme
     if fluid.viscosity == scheme.smagorinsky == 0.0:
         return
     flow.particles.velocity += dt * friction.acceleration(
-        flow.particles, flow.neighbors, (flow.stencil, flow.laplacian_stencil), flow.correction,
-        fluid, scheme, flow.domain.refresh,
-    )  # fmt: skip
+        flow.near, flow.laplacian_stencil, fluid, scheme, flow.domain.refresh
+    )
 
 
 def find_surface(flow):
-    """Number density and surface; the grade of the surface where the scheme asks for it."""
-    particles, neighbors = flow.particles, flow.neighbors
-    density.number_density(
-        particles.position, neighbors.indptr, neighbors.indices, flow.stencil,
-        particles.number_density,
-    )  # fmt: skip
+    """The surface; its grade where the scheme asks for it."""
     graded, scheme = None, flow.case.scheme
     if scheme.surface == "graded":
-        graded = surface.grade_surface(particles, neighbors, flow.stencil)
+        graded = surface.grade_surface(flow.near)
     else:
-        surface.mark_surface(
-            particles, neighbors, flow.stencil, scheme.surface_threshold, flow.unknowns
-        )
-    flow.domain.refresh(particles.surface)
+        surface.mark_surface(flow.near, scheme.surface_threshold, flow.unknowns)
+    flow.domain.refresh(flow.particles.surface)
     return graded
 
 
 def _assemble(flow, graded, pull, dt):
-    particles, neighbors, rho = flow.particles, flow.neighbors, flow.case.fluid.density
+    particles, near, rho = flow.particles, flow.near, flow.case.fluid.density
     stencil, terms = flow.laplacian_stencil, flow.pair_terms
     velocity, n = particles.velocity, particles.number_density
-    role = towards_zero = None
+    towards_zero = None
     if flow.extrapolates:
         velocity = walls.predicted_velocity(particles, pull, dt)
-        role = walls.outside_system(particles)
     if graded is not None:
         towards_zero = surface.surface_pull(
             particles, graded, flow.stencil, stencil, terms, rho
         )
         n = surface.filled_density(n, graded, flow.stencil)
-    right = np.empty(len(particles))
-    flow.source.source(
-        particles.position, velocity, particles.role, n, neighbors.indptr, neighbors.indices,
-        flow.stencil, flow.correction, dt, density_rate(flow.case, flow.time),
-        flow.case.scheme, right,
-    )  # fmt: skip
+    rate = density_rate(flow.case, flow.time)
+    right = flow.source.source(near, velocity, n, dt, rate, flow.case.scheme)
     if flow.extrapolates:
-        right += walls.flux(particles, neighbors, stencil, terms, pull)
+        right += walls.flux(near, stencil, terms, pull)
     domain = flow.domain if flow.solver.BY_SLAB else None
-    return pressure.assemble(
-        particles, neighbors, stencil, terms, rho, right, role, towards_zero, domain
-    )
+    return pressure.assemble(near, stencil, terms, rho, right, flow.unknowns, towards_zero, domain)
 
 
 def _solve(flow, system, rows, pull):
@@ -278,40 +264,31 @@ def _solve(flow, system, rows, pull):
         scheme.clip_pressure,
     )  # fmt: skip
     if flow.extrapolates:
-        walls.fill(
-            particles, flow.neighbors, flow.stencil, flow.case.fluid.density, pull,
-            scheme.clip_pressure,
-        )  # fmt: skip
+        walls.fill(flow.near, flow.case.fluid.density, pull, scheme.clip_pressure)
         flow.domain.refresh(particles.pressure)
     return report
 
 
 def _correct(flow, start, dt):
     """u = u* - (dt/rho) grad p and r = start + u dt, then keep the particles in order."""
-    particles, neighbors = flow.particles, flow.neighbors
-    before = particles.position.copy()
-    role = walls.with_pressure(particles) if flow.extrapolates else particles.role
-    change = np.zeros_like(particles.velocity)
-    flow.gradient.gradient(
-        particles.position, particles.pressure, role, neighbors.indptr, neighbors.indices,
-        flow.stencil, flow.correction, change,
-    )  # fmt: skip
+    particles, change = flow.particles, np.empty_like(flow.particles.velocity)
+    flow.gradient.gradient(flow.near, change)
     particles.velocity -= (dt / flow.case.fluid.density) * change
     moved = start + dt * particles.velocity
     np.copyto(particles.position, moved, where=on_axes(particles.fluid))
     if flow.case.scheme.projection == "start":
         _move_solids(flow, dt)
-    _stabilise(flow, "corrected", before, dt)
+    _stabilise(flow, "corrected", dt)
     if flow.stencil.width > 0.0:
         particles.position[:, 1] %= flow.stencil.width
 
 
-def _stabilise(flow, stage, before, dt):
+def _stabilise(flow, stage, dt):
+    """Let the models of a stage move the particles; returns whether there are any."""
     particles, models = flow.particles, [m for m in flow.stabilisers if stage == m.STAGE]
     for model in models:
         flow.domain.refresh(particles.position, particles.velocity)
-        model.stabilise(
-            particles, before, flow.neighbors, flow.stencil, flow.correction, dt, flow.case.scheme
-        )
+        model.stabilise(flow.near, dt, flow.case.scheme)
     if models and stage == "predicted":
         flow.domain.refresh(particles.position, particles.velocity)
+    return bool(models)

@@ -2,10 +2,9 @@
 
 Each module has one function::
 
-    stabilise(particles, before, neighbors, stencil, correction, dt, scheme)
+    stabilise(near, dt, scheme)
 
-which changes ``particles.position`` and ``particles.velocity`` in place, and a word ``STAGE``:
-"predicted" (before the pressure is solved) or "corrected" (at the end of the step, when
-``before`` holds the predicted positions, (n, 3) [m]).  ``correction`` holds the matrices of
-mpslab.correction, (n, 6), None without ``NEEDS_CORRECTION``.
+which changes position and velocity of ``near.particles`` in place, and a word ``STAGE``:
+"predicted" (before the pressure is solved, when the pairs lie as they were measured) or "corrected"
+(at the end of the step, when the particles have moved on from ``near.position``).
 """
