@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tanks import flow_of, make_case, neighbors_of, particles_at, run
+from tanks import flow_of, make_case, near_of, particles_at, run
 from test_solvers import as_matrix, dense_factor
 
 from mpslab import pressure
@@ -31,7 +31,7 @@ def system_by_slab(long=24, high=5, by_slab=True):
     domain.share_out(particles)
     source = np.random.default_rng(2).normal(size=len(particles))
     return pressure.assemble(
-        particles, neighbors_of(x, RADIUS), stencil, pair_terms(stencil), 1000.0, source,
+        near_of(particles, 3, RADIUS), stencil, pair_terms(stencil), 1000.0, source,
         domain=domain if by_slab else None,
     )  # fmt: skip
 
