@@ -13,11 +13,11 @@ FLOORS = {
     "headings panels catalogue scenes",
     4: "step timestep settling",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
-    "deflation conjugate_gradient piston geometry filling correction obstacles "
+    "deflation conjugate_gradient piston geometry filling obstacles "
     "gates friction census",
     2: "balance communicator headcount domain rebalance",
     1: "particles kinds neighbors stencil sparse slabs parameters scheme keys plugins bed paddle "
-    "waves breaking stopwatch files journal lock tables series memory columns",
+    "waves breaking stopwatch files journal lock tables series memory columns core",
     0: "kernels",
 }
 FLOOR_OF = {name: floor for floor, names in FLOORS.items() for name in names.split()}

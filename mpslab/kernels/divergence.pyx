@@ -47,17 +47,18 @@ def corrected_divergence(const int[::1] row, const int[::1] other, const float[:
     c : (n, 3, 4) correction matrices over the same neighbours; see mpslab.kernels.moments
     """
     cdef double factor = stencil.dim / stencil.n0
-    cdef double total
-    cdef four g
-    cdef Py_ssize_t i, k, a
+    cdef four g, x, y, z
+    cdef Py_ssize_t i, k, j
     with nogil:
         for i in range(out.shape[0]):
-            total = 0.0
+            x = y = z = nothing()
             for k in range(row[i], row[i + 1]):
-                g = turned(&c[i, 0, 0], pull(&offset[k, 0]))
-                for a in range(3):
-                    total += (velocity[other[k], a] - velocity[i, a]) * lane(g, a)
-            out[i] = factor * total
+                j, g = other[k], pull(&offset[k, 0])
+                x = plus(x, velocity[j, 0] - velocity[i, 0], g)
+                y = plus(y, velocity[j, 1] - velocity[i, 1], g)
+                z = plus(z, velocity[j, 2] - velocity[i, 2], g)
+            out[i] = factor * (lane(turned(&c[i, 0, 0], x), 0) + lane(turned(&c[i, 0, 0], y), 1)
+                               + lane(turned(&c[i, 0, 0], z), 2))
 
 
 def adjoint(const int[::1] row, const int[::1] solid, const int[::1] other,

@@ -56,9 +56,10 @@ def strain_rate(const int[::1] row, const int[::1] solid, const int[::1] other,
                 continue
             x = y = z = nothing()
             for k in range(row[i], solid[i] if slip else row[i + 1]):
-                g = turned(&c[i, 0, 0], pull(&offset[k, 0]))
+                g = pull(&offset[k, 0])
                 u = minus(load(&velocity[other[k], 0]), load(&velocity[i, 0]))
                 x, y, z = plus(x, lane(u, 0), g), plus(y, lane(u, 1), g), plus(z, lane(u, 2), g)
+            x, y, z = turned(&c[i, 0, 0], x), turned(&c[i, 0, 0], y), turned(&c[i, 0, 0], z)
             xx, yy, zz = lane(x, 0), lane(y, 1), lane(z, 2)
             xy, xz, yz = lane(x, 1) + lane(y, 0), lane(x, 2) + lane(z, 0), lane(y, 2) + lane(z, 1)
             out[i] = factor * sqrt(2.0 * (xx * xx + yy * yy + zz * zz)
