@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from numpy import int32
 from tanks import cloud, flow_of, make_case, neighbors_of, particles_at, run, scheme
 
 from mpslab import friction, plugins
@@ -91,7 +90,7 @@ def placed(by, seed=5):
     near = Neighbourhood(make_stencil(3, 1.0, 2.1))
     room = len(found.indices) + LANES
     near.offset = shifted(np.zeros((room, 4), np.float32), by)
-    near.inverse, near._other = (shifted(np.zeros(room, kind), by) for kind in (np.float32, int32))
+    near.inverse = shifted(np.zeros(room, np.float32), by)
     return near.measure(particles, found)
 
 

@@ -81,9 +81,10 @@ def test_offsets_are_opposite_to_the_last_bit(dim):
 def test_rows_have_water_before_solids_each_in_the_order_of_the_list(dim):
     particles = crowd(dim)
     found = neighbors_of(particles.position, 2.6)
+    before = found.indices.copy()
     near = Neighbourhood(make_stencil(dim, 1.0, 2.1)).measure(particles, found)
     for i in range(len(particles)):
-        row = found.indices[found.indptr[i] : found.indptr[i + 1]]
+        row = before[found.indptr[i] : found.indptr[i + 1]]
         water = row[particles.fluid[row]]
         assert near.other[near.row[i] : near.solid[i]].tolist() == water.tolist()
         solid = near.other[near.solid[i] : near.row[i + 1]]

@@ -49,10 +49,12 @@ class Neighbourhood:
         self.stencil = stencil
         self.particles: ParticleSet = no_particles()
         self.offset, self.inverse = np.empty((0, 4), np.float32), np.empty(0, np.float32)
-        self._other = self._behind = np.empty(0, np.int32)
+        self._behind = np.empty(0, np.int32)
 
     def measure(self, particles, neighbors, loaded=None):
         """Take the geometry of the pairs of a list, with the particles where they are.
+
+        The list is taken over: in its rows water is put before solids.
 
         Parameters
         ----------
@@ -66,12 +68,12 @@ class Neighbourhood:
         loaded = particles.carries_pressure if loaded is None else loaded
         self.loaded = loaded.astype(np.uint8)
         self._make_room(pairs, int(np.diff(self.row).max(initial=0)))
-        self.other, self.solid = self._other[:pairs], np.empty(n, np.int32)
+        self.other, self.solid = neighbors.indices, np.empty(n, np.int32)
         self.position = padded(particles.position)
         self.first, self.second = np.empty((n, 4)), np.empty((n, 3, 4))
         measure.measure(
-            self.position, particles.role, self.row, neighbors.indices, self.stencil, self.solid,
-            self.other, self._behind, self.offset, self.inverse, self.first, self.second,
+            self.position, particles.role, self.row, self.other, self.stencil, self.solid,
+            self._behind, self.offset, self.inverse, self.first, self.second,
         )  # fmt: skip
         self._correction = self._lean = self._close = None
         return self
@@ -82,7 +84,6 @@ class Neighbourhood:
             room = int(1.2 * pairs) + LANES
             self.offset = np.zeros((room, 4), np.float32)
             self.inverse = np.zeros(room, np.float32)
-            self._other = np.empty(room, np.int32)
         if len(self._behind) < longest:
             self._behind = np.empty(2 * longest, np.int32)
 

@@ -5,6 +5,9 @@
 #define MPSLAB_LANES_H
 
 #include <string.h>
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
 
 typedef double four __attribute__((vector_size(32)));
 typedef float four_singles __attribute__((vector_size(16)));
@@ -20,9 +23,13 @@ INLINE four load(const double *from) { four v; memcpy(&v, from, sizeof v); retur
 
 /* Four singles in a row of memory. */
 INLINE four widened(const float *from) {
+#ifdef __AVX__
+    return (four)_mm256_cvtps_pd(_mm_loadu_ps(from)); /* GCC makes two halves of it by itself */
+#else
     four_singles v;
     memcpy(&v, from, sizeof v);
     return __builtin_convertvector(v, four);
+#endif
 }
 
 INLINE void store(double *to, four v) { memcpy(to, &v, sizeof v); }

@@ -20,7 +20,7 @@ def assemble(const int[::1] row_of, const int[::1] other, const float[::1] inver
     cdef double radius = stencil.radius
     cdef double one = pair_terms[0], first = pair_terms[1], third = pair_terms[2]
     cdef double total, free
-    cdef float a
+    cdef float a, none = 0
     cdef float[LANES] pair
     cdef Py_ssize_t m, i, k, j, begin, end, lane
     cdef int entry = 0
