@@ -1,9 +1,9 @@
 """``python -m benchmarks.passes``: the loops over pairs of a step, on the paper's tank in 3-D.
 
 Each pass and its plain form (the formula in numpy, over the same pairs, in double precision) run in
-turn in one process.  Printed are the medians in ns (of the processor) a pair, the ratio of both, the largest difference
-of their results over the largest value, and the share of its roofline: the time that a copy of as
-many bytes takes, measured in the same run, over the time of the pass.
+turn in one process.  Printed are the medians in ns of the processor a pair, the ratio of both, the
+largest difference of their results over the largest value, and the share of its roofline: the time
+that a copy of as many bytes takes, measured in the same run, over the time of the pass.
 """
 
 import argparse
@@ -14,6 +14,14 @@ import numpy as np
 from mpslab import Simulation, friction, load_case, pressure, step
 
 COPY = 2**24  # doubles, 128 MB: more than any cache
+# What a pass has to read and write, a pair and a particle.
+BYTES = {
+    "measure": (24, 273),
+    "viscosity": (8, 80),
+    "adjoint": (20, 152),
+    "gradient": (20, 168),
+    "matrix": (16, 24),
+}
 
 
 def settled(spacing, warm=2):
@@ -87,10 +95,7 @@ class Plain:
 
 
 class Passes:
-    """The same as passes, and the bytes that each has to move a pair and a particle."""
-
-    BYTES = {"measure": (24, 273), "viscosity": (8, 80), "adjoint": (20, 152), "gradient": (20, 168),
-             "matrix": (16, 24)}  # fmt: skip
+    """The same as passes."""
 
     def __init__(self, flow):
         self.flow, self.near = flow, flow.near
@@ -117,7 +122,7 @@ class Passes:
     def matrix(self):
         flow, n = self.flow, len(self.flow.particles)
         none = np.full(n, 1e-9)  # so that all rows are tied to the surface
-        system, rows = pressure.assemble(self.near, flow.laplacian_stencil, flow.pair_terms,
+        system, _ = pressure.assemble(self.near, flow.laplacian_stencil, flow.pair_terms,
                                          flow.case.fluid.density, np.zeros(n),
                                          flow.particles.fluid, none)  # fmt: skip
         return system.diagonal
@@ -134,7 +139,7 @@ def compare(flow, turns):
     """Rows of the table: name, ns a pair of pass and plain form, difference, share of roofline."""
     passes, plain = Passes(flow), Plain(flow)
     speed, pairs, rows = bandwidth(turns), len(flow.near.other), []
-    for name, (pair, particle) in Passes.BYTES.items():
+    for name, (pair, particle) in BYTES.items():
         spent, results = {}, {}
         for _ in range(turns):
             for form in (passes, plain):

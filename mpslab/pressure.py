@@ -46,13 +46,13 @@ def assemble(
     if domain:
         rows, first = _by_slab(rows, domain.slab[rows], domain.slabs.count)
     m, most = len(rows), len(near.other)
-    unknown = np.full(len(particles), -1, np.int32)
+    unknown = np.where(unknowns, -1, -2).astype(np.int32)
     unknown[rows] = np.arange(m, dtype=np.int32)
     row, diagonal, excess = np.empty(m + 1, np.int32), np.empty(m), np.empty(m)
     column, value = np.empty(most, np.int32), np.empty(most, np.float32)
     entries = poisson.assemble(
-        near.row, near.other, near.inverse, unknowns.astype(np.uint8), rows, unknown, stencil,
-        pair_terms, 1.0 / density, row, column, value, diagonal, excess,
+        near.row, near.other, near.inverse, rows, unknown, stencil, pair_terms, 1.0 / density,
+        row, column, value, diagonal, excess,
     )  # fmt: skip
     column, value = column[:entries], value[:entries]
     if surface_pull is not None:

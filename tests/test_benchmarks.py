@@ -9,7 +9,7 @@ from mpslab.stopwatch import PHASES
 
 sys.path.append(str(ROOT))  # last: the package under test goes first
 
-from benchmarks import pair, program
+from benchmarks import pair, passes, program
 from benchmarks.replay import Replay
 
 SMALL = {"tank.width": 0.0, "particles.spacing": 0.006}
@@ -66,3 +66,12 @@ def test_steps_pass_again_with_the_times_they_took():
     assert clock() == 0.5
     clock.step()
     assert clock() == 0.75
+
+
+def test_passes_are_timed_and_agree_with_their_plain_forms():
+    rows = passes.compare(passes.settled(0.006, warm=1), turns=1)
+    assert [row[0] for row in rows] == list(passes.BYTES)
+    for _, fast, slow, off, share in rows:
+        assert 0.0 < fast < slow
+        assert off < 1e-4
+        assert share > 0.0

@@ -182,7 +182,8 @@ def test_matrix_and_flux_of_walls_are_the_sums_of_their_formulas(dim, name):
 @pytest.mark.parametrize("dim", DIMS)
 def test_pressure_of_walls_is_the_mean_of_its_formula(dim):
     near, pairs = setting(dim, solids=False)
-    p, pull = near.particles.pressure.copy(), np.random.default_rng(3).normal(size=(len(pairs.w), 3))
+    p = near.particles.pressure.copy()
+    pull = np.random.default_rng(3).normal(size=(len(p), 3))
     w = pairs.w[pairs.water][:, ~pairs.water]
     rise = 5.0 * np.einsum("ja,ija->ij", pull, pairs.r)[pairs.water][:, ~pairs.water]
     expected = (w * (p[pairs.water][:, None] + rise)).sum(axis=0) / w.sum(axis=0)

@@ -46,7 +46,7 @@ def test_six_models_are_there():
 @pytest.mark.parametrize("name", NAMES)
 def test_uniform_motion_at_n0_needs_no_pressure(name, dim):
     scale = abs(at_centre(name, dim, squeeze, ratio=1.01))
-    assert abs(at_centre(name, dim, uniform)) < 5 * SINGLE * scale
+    assert abs(at_centre(name, dim, uniform)) < 100 * SINGLE * scale  # 1e-6 of n, for a 1 %
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -83,7 +83,7 @@ def test_shear_and_rotation_inside_the_lattice_need_no_pressure(name):
     def shear(x):
         return np.stack([0.3 * x[:, 2] + 0.1 * x[:, 1], -0.1 * x[:, 0], 0.2 * x[:, 0]], axis=1)
 
-    assert abs(at_centre(name, 3, shear)) < 5 * SINGLE * abs(
+    assert abs(at_centre(name, 3, shear)) < 100 * SINGLE * abs(
         at_centre(name, 3, squeeze, ratio=1.01)
     )
 

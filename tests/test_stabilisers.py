@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tanks import cloud, inside, lattice, near_of, neighbors_of, particles_at, scheme
+from tanks import cloud, inside, lattice, near_of, particles_at, scheme
 
 from mpslab import plugins
 from mpslab.particles import FACE, FILLER, FLUID

@@ -12,7 +12,8 @@ NU = 0.3
 
 
 def acceleration(position, velocity, dim, radius=2.1, role=None, slip=True):
-    particles, out = particles_at(position, FLUID if role is None else role), np.zeros_like(position)
+    particles = particles_at(position, FLUID if role is None else role)
+    out = np.zeros_like(position)
     near = near_of(particles, dim, radius, reach=radius * 1.2)
     viscosity.viscous_acceleration(
         near.row, near.solid, near.other, near.inverse, particles.role, near.stencil,

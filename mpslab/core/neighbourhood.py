@@ -3,13 +3,13 @@
 import numpy as np
 
 from mpslab.kernels import divergence, measure, moments, repulsion
-from mpslab.particles import ParticleSet, no_particles
+from mpslab.particles import no_particles
 
 # Near the free surface the moment is one-sided and its inverse large: one layer would push the
 # next away.  There C = I, and the pair of the conservative gradient is that of p_i + p_j.
 LEAST_DETERMINANT = 0.6
 LANES = 16  # as in mpslab/kernels/pair.pxd
-SLACK = 0.1  # spacings: so much farther than asked for do close pairs reach, for the next who asks
+SLACK = 0.05  # spacings: so much farther may a particle go before close pairs are looked for again
 
 
 class Neighbourhood:
@@ -47,7 +47,7 @@ class Neighbourhood:
 
     def __init__(self, stencil):
         self.stencil = stencil
-        self.particles: ParticleSet = no_particles()
+        self.particles = no_particles()
         self.offset, self.inverse = np.empty((0, 4), np.float32), np.empty(0, np.float32)
         self._behind = np.empty(0, np.int32)
 
@@ -140,15 +140,12 @@ class Neighbourhood:
         row : (n + 1,) int32
         other : (m,) int32
         """
-        needed = distance + 2.0 * repulsion.farthest(
-            self.particles.position, self.position, self.stencil.width
-        )
-        if self._close is None or needed > self._close_reach:
-            self._close_reach = needed + SLACK * self.stencil.spacing
+        moved = np.empty(len(self.particles))
+        repulsion.moved(self.particles.position, self.position, self.stencil.width, moved)
+        if self._close is None or self._path[0] < distance or np.any(moved > self._path[1]):
+            self._path = distance, moved + SLACK * self.stencil.spacing
             row, other = np.empty_like(self.row), np.empty(len(self.other) + 1, np.int32)
-            found = repulsion.close(
-                self.row, self.other, self.inverse, self._close_reach, row, other
-            )
+            found = repulsion.close(self.row, self.other, self.inverse, *self._path, row, other)
             self._close = row, other[:found]
         return self._close
 

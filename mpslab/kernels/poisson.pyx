@@ -3,14 +3,14 @@ from mpslab.kernels.pair cimport LANES, coefficient
 
 
 def assemble(const int[::1] row_of, const int[::1] other, const float[::1] inverse,
-             const unsigned char[::1] coupled, const int[::1] rows, const int[::1] unknown,
-             stencil, pair_terms, double scale, int[::1] row, int[::1] column,
-             float[::1] value, double[::1] diagonal, double[::1] excess):
-    """Rows of  -scale <lap p>  for the particles `rows`; `unknown` is their number (others: -1).
+             const int[::1] rows, const int[::1] unknown, stencil, pair_terms, double scale,
+             int[::1] row, int[::1] column, float[::1] value, double[::1] diagonal,
+             double[::1] excess):
+    """Rows of  -scale <lap p>  for the particles `rows`; `unknown` is the number of their row.
 
     Off-diagonal entries are -scale L(r_ij); the diagonal is the sum of scale L(r_ij) over all
-    neighbours that are `coupled`, (n,) 0 or 1, so that free-surface particles act as p = 0 and
-    those that are not as dp/dn = 0.  Entries are rounded to single precision, half of what a
+    neighbours in the equation, also those at the free surface, where p = 0 (`unknown` is -1).
+    Those that are not in it act as dp/dn = 0 (-2).  Entries are rounded to single precision, half of what a
     product has to read, before they are summed: rows still add up to nothing.  `excess` is what a
     diagonal has above its row: the pull of the free surface.
 
@@ -22,8 +22,8 @@ def assemble(const int[::1] row_of, const int[::1] other, const float[::1] inver
     cdef double total, free
     cdef float a, none = 0
     cdef float[LANES] pair
-    cdef Py_ssize_t m, i, k, j, begin, end, lane
-    cdef int entry = 0
+    cdef Py_ssize_t m, i, k, begin, end, lane
+    cdef int u, entry = 0
     with nogil:
         for m in range(rows.shape[0]):
             i = rows[m]
@@ -36,13 +36,13 @@ def assemble(const int[::1] row_of, const int[::1] other, const float[::1] inver
                     pair[lane] = <float>(scale * coefficient(inverse[begin + lane], radius, one,
                                                              first, third))
                 for k in range(begin, end):
-                    j = other[k]
-                    a = pair[k - begin] if coupled[j] else 0
+                    u = unknown[other[k]]
+                    a = pair[k - begin] if u > -2 else none
                     total += a
-                    free += a if unknown[j] < 0 else 0
-                    column[entry] = unknown[j]
+                    free += a if u < 0 else none
+                    column[entry] = u
                     value[entry] = -a
-                    entry += a != 0 and unknown[j] >= 0
+                    entry += (a != none) & (u >= 0)
             diagonal[m] = total
             excess[m] = free
         row[diagonal.shape[0]] = entry

@@ -31,35 +31,38 @@ def shift(const double[:, :, ::1] second, const double[:, :, ::1] c, const doubl
                 out[i, a] = scale * s[a]
 
 
-def farthest(const double[:, ::1] position, const double[:, ::1] before, double width):
-    """How far the particle has gone that has gone farthest [m]; `before` is (n, 4)."""
-    cdef double dx, dy, dz, square, most = 0.0
+def moved(const double[:, ::1] position, const double[:, ::1] before, double width,
+          double[::1] out):
+    """How far each particle has gone [m]; `before` is (n, 4)."""
+    cdef double dx, dy, dz
     cdef Py_ssize_t i
     with nogil:
-        for i in range(position.shape[0]):
+        for i in range(out.shape[0]):
             dx = position[i, 0] - before[i, 0]
             dy = wrap(position[i, 1] - before[i, 1], width)
             dz = position[i, 2] - before[i, 2]
-            square = dx * dx + dy * dy + dz * dz
-            most = square if square > most else most
-    return sqrt(most)
+            out[i] = sqrt(dx * dx + dy * dy + dz * dz)
 
 
-def close(const int[::1] row, const int[::1] other, const float[::1] inverse, double reach,
-          int[::1] close_row, int[::1] close_other):
-    """Rows of the pairs closer than `reach` [m]: close_row (n + 1,), close_other (m,) out.
+def close(const int[::1] row, const int[::1] other, const float[::1] inverse, double distance,
+          const double[::1] path, int[::1] close_row, int[::1] close_other):
+    """Rows of the pairs that are closer than a distance [m] if each comes nearer by its path.
 
-    Returns how many there are.  The reach is taken a little wider than it is: inverse is rounded.
+    path : (n,) [m]
+    close_row : (n + 1,) out, close_other : (m + 1,) out
+
+    Returns how many there are.  Distances are taken a millionth longer: inverse is rounded.
     """
-    cdef float least = <float>((1.0 - 1e-6) / reach)
+    cdef double reach
     cdef Py_ssize_t i, k
     cdef int found = 0
     with nogil:
         for i in range(close_row.shape[0] - 1):
             close_row[i] = found
+            reach = distance + path[i]
             for k in range(row[i], row[i + 1]):
                 close_other[found] = other[k]
-                found += inverse[k] >= least
+                found += inverse[k] * (reach + path[other[k]]) >= 1.0 - 1e-6
         close_row[close_row.shape[0] - 1] = found
     return found
 
