@@ -122,9 +122,10 @@ class Passes:
     def matrix(self):
         flow, n = self.flow, len(self.flow.particles)
         none = np.full(n, 1e-9)  # so that all rows are tied to the surface
-        system, _ = pressure.assemble(self.near, flow.laplacian_stencil, flow.pair_terms,
-                                         flow.case.fluid.density, np.zeros(n),
-                                         flow.particles.fluid, none)  # fmt: skip
+        system, _ = pressure.assemble(
+            self.near, flow.laplacian_stencil, flow.pair_terms, flow.case.fluid.density,
+            np.zeros(n), flow.particles.fluid, none,
+        )  # fmt: skip
         return system.diagonal
 
 

@@ -210,7 +210,7 @@ def find_neighbors(flow):
 
 
 def measure(flow):
-    """The geometry of the pairs in the list, and the number density, with the particles as are."""
+    """Geometry of the pairs in the list, and number density, where the particles are now."""
     everywhere = np.ones(len(flow.particles), bool) if flow.extrapolates else None
     flow.near.measure(flow.particles, flow.neighbors, everywhere)
     flow.particles.number_density[:] = flow.near.number_density
