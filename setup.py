@@ -23,6 +23,7 @@ KIND = "kernels-checked" if CHECKED else "kernels-portable" if PORTABLE else "ke
 # can be tested for, and nothing goes into the link arguments: there, the option would switch
 # denormal numbers off in the whole process.
 FLAGS = ["-O1"] if CHECKED else ["-O3", "-ffast-math", "-fno-finite-math-only"]
+FLAGS += ["-Wno-psabi"]  # no word on how vectors are handed over: they are not, but inlined
 FLAGS += ["-g0"]  # no tables for a debugger: they take a third of the time to compile
 if not (CHECKED or PORTABLE):
     FLAGS += ["-march=native", "-mtune=generic"]
@@ -46,7 +47,10 @@ def extensions():
     """One extension for each .pyx below the package, and one for what they share."""
     for source in sorted(Path("mpslab").rglob("*.pyx")):
         name = ".".join(source.with_suffix("").parts)
-        yield Extension(name, [str(source)], extra_compile_args=FLAGS)
+        yield Extension(
+            name, [str(source)], extra_compile_args=FLAGS, include_dirs=["mpslab/kernels"],
+            depends=["mpslab/kernels/lanes.h"],
+        )  # fmt: skip
     yield Extension(SHARED, ["mpslab/_memoryviews.c"], extra_compile_args=FLAGS)
 
 

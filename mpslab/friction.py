@@ -2,54 +2,48 @@
 
 import numpy as np
 
+from mpslab.core.neighbourhood import padded
 from mpslab.kernels import viscosity as kernels
 
 
-def eddies(particles, neighbors, stencil, matrices, scheme, refresh):
+def eddies(near, scheme, refresh):
     """Eddy viscosity of Smagorinsky (1963), nu_e = (C_s d0)^2 |S|, (n,) [m2/s]; None without.
 
     Parameters
     ----------
-    particles : ParticleSet
-    neighbors : NeighborList
-    stencil : Stencil
-        Of the gradient.
-    matrices : (n, 6) float64
-        Correction matrices of the particles.
+    near : Neighbourhood
     scheme : table of the case
     refresh : callable
         Brings an array of the particles up to date where they are ghosts.
     """
     if scheme.smagorinsky == 0.0:
         return None
-    eddy = np.zeros(len(particles))
+    particles, eddy = near.particles, np.zeros(len(near.particles))
     kernels.strain_rate(
-        particles.position, particles.velocity, particles.role, neighbors.indptr,
-        neighbors.indices, stencil, matrices, scheme.wall_slip, eddy,
+        near.row, near.solid, near.other, near.offset, particles.role, near.stencil,
+        padded(particles.velocity), near.correction, scheme.wall_slip, eddy,
     )  # fmt: skip
-    eddy *= (scheme.smagorinsky * stencil.spacing) ** 2
+    eddy *= (scheme.smagorinsky * near.stencil.spacing) ** 2
     refresh(eddy)
     return eddy
 
 
-def acceleration(particles, neighbors, stencil, eddy, fluid, scheme):
+def acceleration(near, laplacian_stencil, eddy, fluid, scheme):
     """nu <lap u> and div(nu_e grad u) of the fluid particles, (n, 3) [m/s2].
 
     Parameters
     ----------
-    particles : ParticleSet
-    neighbors : NeighborList
-    stencil : Stencil
-        Of the Laplacian.
+    near : Neighbourhood
+    laplacian_stencil : Stencil
     eddy : (n,) float64 or None
         From `eddies` [m2/s].
     fluid, scheme : tables of the case
     """
-    out = np.zeros_like(particles.velocity)
-    place = particles.position, particles.velocity, particles.role
-    pairs = neighbors.indptr, neighbors.indices, stencil
+    particles, slip = near.particles, scheme.wall_slip
+    out, velocity = np.zeros_like(particles.velocity), padded(particles.velocity)
+    place = near.row, near.solid, near.other, near.inverse, particles.role, laplacian_stencil
     if fluid.viscosity > 0.0:
-        kernels.viscous_acceleration(*place, *pairs, fluid.viscosity, scheme.wall_slip, out)
+        kernels.viscous_acceleration(*place, velocity, fluid.viscosity, slip, out)
     if eddy is not None:
-        kernels.eddy_acceleration(*place, *pairs, eddy, scheme.wall_slip, out)
+        kernels.eddy_acceleration(*place, velocity, eddy, slip, out)
     return out

@@ -20,7 +20,8 @@ class NeighborList:
     indptr : (n + 1,) int32
         Row i is ``indices[indptr[i]:indptr[i + 1]]``; rows of inactive particles are empty.
     indices : (m,) int32
-        Neighbours of a row, ascending, the particle itself left out.
+        Neighbours of a row, ascending, the particle itself left out; once the pairs are measured
+        (`mpslab.core.neighbourhood`), water before solids.
     """
 
     indptr: np.ndarray = field(default_factory=lambda: np.zeros(1, np.int32))

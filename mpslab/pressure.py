@@ -4,30 +4,29 @@ import numpy as np
 
 from mpslab import slabs
 from mpslab.kernels import poisson
-from mpslab.particles import carries_pressure
 from mpslab.sparse import PressureSystem
 
 FAR = 100_000  # cells; farther away all places are in the same one
 
 
 def assemble(
-    particles, neighbors, stencil, pair_terms, density, source, role=None, surface_pull=None,
-    domain=None,
+    near, stencil, pair_terms, density, source, unknowns=None, surface_pull=None, domain=None
 ):
     """System of the particles that carry a pressure and are not at the surface.
 
     Parameters
     ----------
-    particles : ParticleSet at the predicted positions, surface marked
-    neighbors : NeighborList of these positions
+    near : Neighbourhood
+        Of the places where the pressure acts, the surface of its particles marked.
     stencil : Stencil of the Laplacian
     pair_terms : tuple
         Of the Laplacian; see :mod:`mpslab.laplacians`.
     density : float [kg/m3]
     source : (n,) float64 [1/s2]
         Right-hand side for all particles.
-    role : (n,) int8, optional
-        Kinds that stand in for those of the particles.
+    unknowns : (n,) bool, optional
+        Particles whose pressure is in the equation, unless all that carry one; the others are left
+        out of it, which means dp/dn = 0.
     surface_pull : (n,) float64, optional
         Added to the diagonal; with it, surface particles have rows as all others.
     domain : mpslab.domain.Domain, optional
@@ -40,27 +39,28 @@ def assemble(
     rows : (m,) int
         Particle of each row.
     """
-    role = particles.role if role is None else role
+    particles = near.particles
+    unknowns = particles.carries_pressure if unknowns is None else unknowns
     inner = particles.surface == 0 if surface_pull is None else True
-    rows = np.flatnonzero(carries_pressure(role) & inner).astype(np.int32)
+    rows = np.flatnonzero(unknowns & inner).astype(np.int32)
     first = None
     if domain:
         slabs_ = np.arange(domain.slabs.count + 1)
         first = np.searchsorted(domain.slab.take(rows), slabs_).astype(np.int32)
-    m, most = len(rows), len(neighbors.indices)
-    unknown = np.full(len(particles), -1, np.int32)
+    m, most = len(rows), len(near.other)
+    unknown = np.where(unknowns, -1, -2).astype(np.int32)
     unknown[rows] = np.arange(m, dtype=np.int32)
     row, diagonal, excess = np.empty(m + 1, np.int32), np.empty(m), np.empty(m)
     column, value = np.empty(most, np.int32), np.empty(most, np.float32)
     entries = poisson.assemble(
-        particles.position, role, neighbors.indptr, neighbors.indices, rows, unknown,
-        stencil, pair_terms, 1.0 / density, row, column, value, diagonal, excess,
+        near.row, near.other, near.inverse, rows, unknown, stencil, pair_terms, 1.0 / density,
+        row, column, value, diagonal, excess,
     )  # fmt: skip
     column, value = column[:entries], value[:entries]
     if surface_pull is not None:
         diagonal += surface_pull[rows]
         excess += surface_pull[rows]
-    cell = cells(particles.position.take(rows, 0)[:, 1:], slabs.WIDTH * stencil.radius)
+    cell = cells(near.position.take(rows, 0)[:, 1:3], slabs.WIDTH * stencil.radius)
     system = PressureSystem(row, column, value, diagonal, source[rows], first, domain, cell)
     system.refresh(diagonal)
     _hold_cut_off_rows(system, excess)

@@ -12,7 +12,6 @@ import numpy as np
 
 from mpslab import parts
 from mpslab.kernels import reaction as kernels
-from mpslab.neighbors import NeighborList
 
 AXES = 3
 
@@ -59,33 +58,35 @@ class Reaction:
         self._before, self._pushed = before, particles.velocity.copy()
         self._place = particles.position.copy()
 
-    def find(self, particles, neighbors):
-        """Find the pairs of the water with solids in the neighbour list of the step."""
-        solids = _with_solids(particles.role, neighbors)
+    def find(self, near):
+        """Find the pairs of the water with solids among those of the step."""
+        particles = near.particles
         masks = [parts.mask(self.case, particles, name) for name, _ in self.wanted]
-        self._lists = [solids, *(_with(solids, mask) for mask in masks)]
-        self._changes = [np.zeros_like(particles.velocity) for _ in self._lists]
+        self._pairs = [_with_solids(near, mask) for mask in [~particles.fluid, *masks]]
+        self._changes = [np.zeros_like(particles.velocity) for _ in self._pairs]
 
-    def add(self, act):
+    def add(self, near, act):
         """Note what solids do to the water, by what `act` makes of their pairs.
 
+        near : Neighbourhood
         act : callable
-            Gives the change of velocity of the particles, (n, 3) [m/s], by a `NeighborList`.
+            Gives the change of velocity of the particles, (n, 3) [m/s], by a `Neighbourhood`.
         """
-        for change, pairs in zip(self._changes, self._lists, strict=True):
-            change += act(pairs)
+        for change, pairs in zip(self._changes, self._pairs, strict=True):
+            change += act(near.only(*pairs))
 
-    def stabilise(self, act, particles):
-        """As `add` for what `act`, of a set of particles and a list, does to their velocity."""
+    def stabilise(self, near, act):
+        """As `add` for what `act`, of a `Neighbourhood`, does to its particles' velocity."""
 
-        def change(pairs):
+        def change(some):
+            start = near.particles.velocity
             tried = replace(
-                particles, position=particles.position.copy(), velocity=particles.velocity.copy()
+                near.particles, position=near.particles.position.copy(), velocity=start.copy()
             )
-            act(tried, pairs)
-            return tried.velocity - particles.velocity
+            act(some.of(tried))
+            return tried.velocity - start
 
-        self.add(change)
+        self.add(near, change)
 
     def end(self, flow, dt):
         """Add up the step, of all ranks, while its ghosts are still there."""
@@ -100,15 +101,10 @@ class Reaction:
         self.span += dt
 
 
-def _with_solids(role, neighbors):
-    """The pairs of water with solids of a neighbour list, as such a list."""
-    first, found = np.empty_like(neighbors.indptr), np.empty_like(neighbors.indices)
-    count = kernels.with_solids(role, neighbors.indptr, neighbors.indices, first, found)
-    return NeighborList(first, found[:count].copy())
-
-
-def _with(solids, mask):
-    """What of such a list are pairs with the particles of a mask."""
-    kept = mask[solids.indices]
-    first = np.append(0, np.cumsum(kept))[solids.indptr].astype(np.int32)
-    return NeighborList(first, solids.indices[kept])
+def _with_solids(near, wanted):
+    """Rows and numbers of the pairs of water with the solids of a mask, as `only` takes them."""
+    first, found = np.empty_like(near.row), np.empty(len(near.other) + 1, np.int32)
+    count = kernels.with_solids(
+        near.particles.role, near.row, near.solid, near.other, wanted.view(np.uint8), first, found
+    )
+    return first, found[:count].copy()

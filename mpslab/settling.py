@@ -8,7 +8,7 @@ the pressure fell to nothing and rose to five times its value, over 120 it tore 
 
 import numpy as np
 
-from mpslab import correction, filling, step
+from mpslab import filling, step
 from mpslab.bed import CLOSEST
 from mpslab.particles import FILLER, joined, make_particles
 from mpslab.stabilisers import corrected_shifting
@@ -42,6 +42,7 @@ def settle(flow):
     for turn in range(flow.case.scheme.settling):
         flow.particles, (move,) = domain.share_out(flow.particles, move)
         step.find_neighbors(flow)
+        step.measure(flow)
         step.find_surface(flow)
         if turn == 0:
             _shake(flow, count)
@@ -85,16 +86,14 @@ def _shake(flow, count):
         move[:, 1] = 0.0
     particles.position += SHAKE * case.particles.spacing * inside[:, np.newaxis] * move
     flow.domain.refresh(particles.position)
+    step.measure(flow)
 
 
 def _shift(flow):
     """Displacement of `corrected_shifting` at the present places, (n, 3) [m]."""
-    particles, stencil = flow.particles, flow.stencil
+    particles = flow.particles
     start = particles.position.copy()
-    matrices = correction.matrices(particles, flow.neighbors, stencil)
-    corrected_shifting.stabilise(
-        particles, None, flow.neighbors, stencil, matrices, PASS, PASS, flow.case.scheme
-    )
+    corrected_shifting.stabilise(flow.near, PASS, PASS, flow.case.scheme)
     shift = particles.position - start
     particles.position[:] = start
     return shift

@@ -1,16 +1,16 @@
 """One time step of the semi-implicit particle method."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import ModuleType
 
 import numpy as np
 
-from mpslab import correction, friction, geometry, plugins, pressure, surface, walls
+from mpslab import friction, geometry, plugins, pressure, surface, walls
 from mpslab.core.cells import make_cells
+from mpslab.core.neighbourhood import Neighbourhood
 from mpslab.domain import Domain
 from mpslab.forcings import forcings_of, total
-from mpslab.kernels import density
 from mpslab.models import copied
 from mpslab.neighbors import NeighborList
 from mpslab.particles import ParticleSet, on_axes
@@ -41,8 +41,8 @@ class Flow:
         Of the case, and the user's own.
     neighbors : NeighborList
         Where the pressure acted last.
-    correction : (n, 6) float64 or None
-        Matrices of `mpslab.correction` there, where a model needs them.
+    near, near_gradient : Neighbourhood
+        The same pairs with their geometry, and with the radius of the gradient.
     time : float [s]
     done : dict
         What the loop says of the last step, for the table of steps; empty before the first.
@@ -68,8 +68,9 @@ class Flow:
     pair_terms: tuple
     stabilisers: tuple
     forcings: tuple
+    near: Neighbourhood
+    near_gradient: Neighbourhood
     neighbors: NeighborList = field(default_factory=NeighborList)
-    correction: np.ndarray | None = None
     time: float = 0.0
     done: dict = field(default_factory=dict)
     readings: dict = field(default_factory=dict)
@@ -95,13 +96,6 @@ class Flow:
     def unknowns(self):
         """Mask of the particles whose pressure is an unknown of the equation, (n,) bool."""
         return self.particles.fluid if self.extrapolates else self.particles.carries_pressure
-
-    @property
-    def needs_correction(self):
-        """Whether a model works with the correction matrices."""
-        models = (self.gradient, self.source, *self.stabilisers)
-        wanted = any(getattr(model, "NEEDS_CORRECTION", False) for model in models)
-        return wanted or self.case.scheme.smagorinsky > 0.0
 
 
 def make_flow(case, particles, solids, width, forcings=(), comm=None):
@@ -135,6 +129,7 @@ def make_flow(case, particles, solids, width, forcings=(), comm=None):
     domain = Domain(slabs, comm, cells_of(case, slabs, width))
     solver = solver_of(case, domain.size)
     solids.begin(particles, domain.comm)
+    near = Neighbourhood(stencil)
     return Flow(
         case=case,
         particles=domain.take_part(particles, case.parallel.balance),
@@ -149,6 +144,8 @@ def make_flow(case, particles, solids, width, forcings=(), comm=None):
         pair_terms=plugins.load("laplacians", scheme.laplacian).pair_terms(laplacian_stencil),
         stabilisers=tuple(plugins.load("stabilisers", name) for name in scheme.stabiliser),
         forcings=forcings_of(case, forcings),
+        near=near,
+        near_gradient=near if gradient_stencil == stencil else Neighbourhood(gradient_stencil),
     )
 
 
@@ -211,13 +208,13 @@ def advance(flow, dt):
         reaction.begin(particles, before)
     with watch.phase("neighbours"):
         find_neighbors(flow)
-        if reaction:
-            reaction.find(particles, flow.neighbors)
     with watch.phase("operators"):
-        if flow.needs_correction:
-            flow.correction = correction.matrices(particles, flow.neighbors, flow.stencil)
+        measure(flow)
+        if reaction:
+            reaction.find(flow.near)
         _add_viscosity(flow, dt)
-        _stabilise(flow, "predicted", particles.position, dt)
+        if _stabilise(flow, "predicted", dt):
+            measure(flow)
         graded = find_surface(flow)
     moving = flow.solids.accelerates(particles)
     pull = walls.pull(particles, before, force_on(flow, dt), dt, moving)
@@ -268,69 +265,59 @@ def find_neighbors(flow):
     )
 
 
+def measure(flow):
+    """Geometry of the pairs in the list, and number density, where the particles are now."""
+    everywhere = np.ones(len(flow.particles), bool) if flow.extrapolates else None
+    flow.near.measure(flow.particles, flow.neighbors, everywhere)
+    if flow.near_gradient is not flow.near:
+        flow.near_gradient.measure(flow.particles, flow.neighbors, everywhere)
+    flow.particles.number_density[:] = flow.near.number_density
+
+
 def _add_viscosity(flow, dt):
     """u* = u' + nu <lap u> dt; its share of r* is of second order in dt and left out."""
     fluid, scheme = flow.case.fluid, flow.case.scheme
     if fluid.viscosity == scheme.smagorinsky == 0.0:
         return
-    particles, stencil = flow.particles, flow.laplacian_stencil
-    eddy = friction.eddies(
-        particles, flow.neighbors, flow.stencil, flow.correction, scheme, flow.domain.refresh
-    )
+    eddy = friction.eddies(flow.near, scheme, flow.domain.refresh)
 
-    def change(pairs):
-        return dt * friction.acceleration(particles, pairs, stencil, eddy, fluid, scheme)
+    def change(near):
+        return dt * friction.acceleration(near, flow.laplacian_stencil, eddy, fluid, scheme)
 
-    if flow.reaction:
-        flow.reaction.add(change)
-    particles.velocity += change(flow.neighbors)
+    _act(flow, flow.near, change)
 
 
 def find_surface(flow):
-    """Number density and surface; the grade of the surface where the scheme asks for it."""
-    particles, neighbors = flow.particles, flow.neighbors
-    density.number_density(
-        particles.position, neighbors.indptr, neighbors.indices, flow.stencil,
-        particles.number_density,
-    )  # fmt: skip
+    """The surface; its grade where the scheme asks for it."""
     graded, scheme = None, flow.case.scheme
     if scheme.surface == "graded":
-        graded = surface.grade_surface(particles, neighbors, flow.stencil)
+        graded = surface.grade_surface(flow.near)
     else:
-        surface.mark_surface(
-            particles, neighbors, flow.stencil, scheme.surface_threshold, flow.unknowns
-        )
-    flow.domain.refresh(particles.surface)
+        surface.mark_surface(flow.near, scheme.surface_threshold, flow.unknowns)
+    flow.domain.refresh(flow.particles.surface)
     return graded
 
 
 def _assemble(flow, graded, pull, dt):
-    particles, neighbors, rho = flow.particles, flow.neighbors, flow.case.fluid.density
+    particles, near, rho = flow.particles, flow.near, flow.case.fluid.density
     stencil, terms = flow.laplacian_stencil, flow.pair_terms
     velocity, n = particles.velocity, particles.number_density
-    role = towards_zero = None
+    towards_zero = None
     if flow.extrapolates:
         velocity = walls.predicted_velocity(particles, pull, dt)
-        role = walls.outside_system(particles)
     if graded is not None:
         towards_zero = surface.surface_pull(
             particles, graded, flow.stencil, stencil, terms, rho
         )
         n = surface.filled_density(n, graded, flow.stencil)
-    right = np.empty(len(particles))
-    flow.source.source(
-        particles.position, velocity, particles.role, n, neighbors.indptr, neighbors.indices,
-        flow.stencil, flow.correction, dt, density_rate(flow.case, flow.time),
-        flow.case.scheme, right,
-    )  # fmt: skip
+    rate = density_rate(flow.case, flow.time)
+    right = flow.source.source(near, velocity, n, dt, rate, flow.case.scheme)
     mine = flow.domain.owned
     flow.compression = dt * float(right[mine].max(initial=0.0, where=particles.fluid[mine]))
     if flow.extrapolates:
-        right += walls.flux(particles, neighbors, stencil, terms, pull)
+        right += walls.flux(near, stencil, terms, pull)
     domain = flow.domain if flow.solver.BY_SLAB else None
-    return pressure.assemble(
-        particles, neighbors, stencil, terms, rho, right, role, towards_zero, domain
-    )
+    return pressure.assemble(near, stencil, terms, rho, right, flow.unknowns, towards_zero, domain)
 
 
 def _solve(flow, system, rows, pull):
@@ -340,10 +327,7 @@ def _solve(flow, system, rows, pull):
         scheme.clip_pressure,
     )  # fmt: skip
     if flow.extrapolates:
-        walls.fill(
-            particles, flow.neighbors, flow.stencil, flow.case.fluid.density, pull,
-            scheme.clip_pressure,
-        )  # fmt: skip
+        walls.fill(flow.near, flow.case.fluid.density, pull, scheme.clip_pressure)
         flow.domain.refresh(particles.pressure)
     return report
 
@@ -351,51 +335,44 @@ def _solve(flow, system, rows, pull):
 def _correct(flow, start, dt):
     """u = u* - (dt/rho) grad p and r = start + u dt, then keep the particles in order."""
     particles = flow.particles
-    before = particles.position.copy()
     _press(flow, dt)
     moved = start + _flight(flow, dt)
     np.copyto(particles.position, moved, where=on_axes(particles.fluid))
     if flow.case.scheme.projection == "start":
         flow.solids.move(particles, flow.time, dt)
-    _stabilise(flow, "corrected", before, dt)
+    _stabilise(flow, "corrected", dt)
     if flow.stencil.width > 0.0:
         particles.position[:, 1] %= flow.stencil.width
 
 
 def _press(flow, dt):
     """u = u* - (dt/rho) grad p."""
-    particles, stencil = flow.particles, flow.gradient_stencil
-    role = _pressing(flow)
-    gradient, pressure = flow.gradient.gradient, particles.pressure
+    near = flow.near_gradient
+    if flow.copies:
+        near.loaded = copied.fill(near)
+        # The nearest face of a ghost may lie beyond all ghosts.
+        flow.domain.refresh(near.particles.pressure, near.loaded)
+    model = flow.gradient
 
-    def change(pairs):
-        out = np.zeros_like(particles.velocity)
-        gradient(particles.position, pressure, role, pairs.indptr, pairs.indices, stencil,
-                 flow.correction, out)  # fmt: skip
+    def change(near, gradient=model.gradient):
+        out = np.empty_like(near.particles.velocity)
+        gradient(near, out)
         return (-dt / flow.case.fluid.density) * out
 
-    by_all = change(flow.neighbors)
+    if flow.reaction and hasattr(model, "as_pairs"):
+        by_pairs, pressure = model.as_pairs(near)
+        alike = near.of(replace(near.particles, pressure=pressure))
+        flow.reaction.add(alike, lambda near: change(near, by_pairs))
+        flow.particles.velocity += change(near)
+    else:
+        _act(flow, near, change)
+
+
+def _act(flow, near, change):
+    """Change the velocity of the water by a sum over pairs; who asks for forces gets its share."""
     if flow.reaction:
-        if hasattr(flow.gradient, "as_pairs"):
-            gradient, pressure = flow.gradient.as_pairs(
-                particles.position, pressure, role, flow.neighbors.indptr,
-                flow.neighbors.indices, stencil,
-            )  # fmt: skip
-        flow.reaction.add(change)
-    particles.velocity += by_all
-
-
-def _pressing(flow):
-    """Roles by which particles have a share in the gradient; solids get the pressure they lack."""
-    particles = flow.particles
-    if flow.extrapolates:
-        return walls.with_pressure(particles)
-    if not flow.copies:
-        return particles.role
-    role = copied.fill(particles, flow.neighbors, flow.stencil.width)
-    # The nearest face of a ghost may lie beyond all ghosts.
-    flow.domain.refresh(particles.pressure, role)
-    return role
+        flow.reaction.add(near, change)
+    flow.particles.velocity += change(near)
 
 
 def _flight(flow, dt):
@@ -411,26 +388,25 @@ def _flight(flow, dt):
     return path
 
 
-def _stabilise(flow, stage, before, dt):
+def _stabilise(flow, stage, dt):
+    """Let the models of a stage move the particles; returns whether there are any."""
     particles, models = flow.particles, [m for m in flow.stabilisers if stage == m.STAGE]
     for model in models:
         flow.domain.refresh(particles.position, particles.velocity)
-        _part(flow, model, before, dt)
+        _part(flow, model, dt)
     if models and stage == "predicted":
         flow.domain.refresh(particles.position, particles.velocity)
+    return bool(models)
 
 
-def _part(flow, model, before, dt):
+def _part(flow, model, dt):
     """Apply a stabiliser, pass by pass."""
     one_pass = getattr(model, "one_pass", model.stabilise)
 
-    def act(particles, pairs):
-        one_pass(
-            particles, before, pairs, flow.stencil, flow.correction, dt, pace(flow.case),
-            flow.case.scheme,
-        )  # fmt: skip
+    def act(near):
+        one_pass(near, dt, pace(flow.case), flow.case.scheme)
 
     for _ in range(getattr(model, "PASSES", 1)):
         if flow.reaction:
-            flow.reaction.stabilise(act, flow.particles)
-        act(flow.particles, flow.neighbors)
+            flow.reaction.stabilise(flow.near, act)
+        act(flow.near)

@@ -17,7 +17,7 @@ GRADE_LOPSIDED = (0.15, 0.35)
 GRADE_SPRAY = (0.85, 0.70)
 
 
-def mark_surface(particles, neighbors, stencil, threshold, unknown):
+def mark_surface(near, threshold, unknown):
     """Option ``scheme.surface = "marked"``: set ``particles.surface``, where p = 0 holds.
 
     Only particles whose pressure is an unknown, a mask (n,) bool, can be marked: no others have
@@ -26,29 +26,29 @@ def mark_surface(particles, neighbors, stencil, threshold, unknown):
     A particle is at the surface where n < threshold n0, unless its neighbours surround it
     evenly: more than four of them, and |sum w r_ij|/n < 0.2 d0 (Shibata et al.; NPCD 2016).
     """
-    few = particles.number_density < threshold * stencil.n0
+    few = near.number_density < threshold * near.stencil.n0
     few &= unknown
-    rows = np.flatnonzero(few)
-    count, lopsided = _imbalance(particles, neighbors, stencil, rows)
-    inside = (count > FEW) & (lopsided < LOPSIDED)
+    rows = np.flatnonzero(few).astype(np.int32)
+    count = np.empty(len(rows), np.int32)
+    density.count(near.row, near.offset, rows, count)
+    inside = (count > FEW) & (_lopsided(near, rows) < LOPSIDED)
     few[rows[inside]] = False
-    particles.surface[:] = few
+    near.particles.surface[:] = few
 
 
-def grade_surface(particles, neighbors, stencil):
+def grade_surface(near):
     """Option ``scheme.surface = "graded"``: how much of the surface each particle is, (n,) float64.
 
     0 inside, 1 at the surface or in spray, in between smoothly: a particle on its way to the
     surface does not switch from one condition to another.  Sets ``particles.surface`` as well.
     """
-    rows = np.flatnonzero(particles.fluid)
-    _, lopsided = _imbalance(particles, neighbors, stencil, rows)
-    share = particles.number_density[rows] / stencil.n0
-    side = _between(lopsided, *GRADE_LOPSIDED)
+    rows = np.flatnonzero(near.particles.fluid)
+    share = near.number_density[rows] / near.stencil.n0
+    side = _between(_lopsided(near, rows), *GRADE_LOPSIDED)
     t = np.maximum(side, _between(share, *GRADE_SPRAY))
-    graded = np.zeros(len(particles))
+    graded = np.zeros(len(near.particles))
     graded[rows] = t * t * (3.0 - 2.0 * t)
-    particles.surface[:] = graded > 0.5
+    near.particles.surface[:] = graded > 0.5
     return graded
 
 
@@ -85,15 +85,13 @@ def _lattice_sum(stencil, pair_terms):
     return float(np.sum((one + inverse / r + cubic / r**3)[r < stencil.radius]))
 
 
-def _imbalance(particles, neighbors, stencil, rows):
-    """Number of neighbours of rows, and how lopsided they are [spacings], (m,) each.
+def _lopsided(near, rows):
+    """|sum_j w r_ij| / sum_j w of rows: how lopsided the neighbours are [spacings], (m,).
 
     What the second layer has more of it than at a radius of 2.1 is taken off.
     """
-    count, lopsided = np.empty(len(rows), np.int32), np.empty(len(rows))
-    density.imbalance(
-        particles.position, neighbors.indptr, neighbors.indices, stencil,
-        rows.astype(np.int32), count, lopsided,
-    )  # fmt: skip
+    stencil, sums = near.stencil, near.first.take(rows, 0)
+    length = np.sqrt(np.einsum("ij,ij->i", sums[:, :3], sums[:, :3]))
+    total = np.where(sums[:, 3] > 0.0, sums[:, 3], 1.0)
     more = max(stencil.lopsided / stencil.spacing - SECOND_LAYER, 0.0)
-    return count, lopsided / stencil.spacing - more
+    return length / total / stencil.spacing - more

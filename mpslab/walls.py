@@ -10,7 +10,7 @@ difference of a layer.
 import numpy as np
 
 from mpslab.kernels import walls as kernels
-from mpslab.particles import FACE, FILLER, FLUID, on_axes
+from mpslab.particles import FLUID, on_axes
 
 
 def pull(particles, before, force, dt, moving):
@@ -36,26 +36,16 @@ def predicted_velocity(particles, pull_, dt):
     return particles.velocity + dt * pull_ * on_axes(particles.role != FLUID)
 
 
-def outside_system(particles):
-    """Roles under which solids take no part in the matrix, (n,) int8."""
-    return np.where(particles.fluid, FLUID, FILLER).astype(np.int8)
-
-
-def with_pressure(particles):
-    """Roles under which all solids act with their pressure, (n,) int8."""
-    return np.where(particles.fluid, FLUID, FACE).astype(np.int8)
-
-
-def flux(particles, neighbors, stencil, pair_terms, pull_):
+def flux(near, stencil, pair_terms, pull_):
     """What the walls' known differences of pressure add to the right-hand side, (n,) [1/s2]."""
-    out = np.empty(len(particles))
-    kernels.flux(particles.position, particles.role, neighbors.indptr, neighbors.indices,
-                 stencil, pair_terms, pull_, out)  # fmt: skip
+    out = np.empty(len(near.particles))
+    kernels.flux(near.row, near.solid, near.other, near.offset, near.inverse, stencil, pair_terms,
+                 pull_, out)  # fmt: skip
     return out
 
 
-def fill(particles, neighbors, stencil, density, pull_, clip):
+def fill(near, density, pull_, clip):
     """Give the solids the pressure of the water in front of them, in place; with `clip` not < 0."""
-    kernels.extrapolate(particles.position, particles.role, neighbors.indptr, neighbors.indices,
-                        stencil, density, pull_, clip, particles.pressure,
-                        np.empty(len(particles)))  # fmt: skip
+    kernels.extrapolate(near.row, near.solid, near.other, near.offset, near.inverse,
+                        near.particles.role, near.stencil, density, pull_, clip,
+                        near.particles.pressure, np.empty(len(near.particles)))  # fmt: skip

@@ -6,10 +6,10 @@ from types import SimpleNamespace
 import numpy as np
 from scipy.spatial import cKDTree
 
-from mpslab import correction, geometry, instruments
+from mpslab import geometry, instruments
 from mpslab.cases import from_tables
 from mpslab.columns import PHASE_COLUMNS, STEP_COLUMNS
-from mpslab.kernels import density
+from mpslab.core.neighbourhood import Neighbourhood
 from mpslab.neighbors import NeighborList
 from mpslab.particles import make_particles
 from mpslab.solids.collection import solids_of
@@ -24,6 +24,9 @@ TABLES = {
     "scheme": {"settling": 0},
 }
 
+
+# What pairs in single precision leave of "exact", of the largest value.
+SINGLE = 1e-6
 
 # The frame of the original method, in which the gradients are compared with one another.
 CLASSIC = {
@@ -95,9 +98,10 @@ def neighbors_of(position, radius, width=0.0, active=None):
     return NeighborList().build(np.ascontiguousarray(position), radius, width, active)
 
 
-def matrices_of(position, role, found, stencil):
-    """Correction matrices at positions."""
-    return correction.matrices(particles_at(position, role), found, stencil)
+def near_of(particles, dim, radius=2.1, width=0.0, reach=None, active=None):
+    """Neighbourhood of particles at spacing 1; `reach` is that of the list [spacings]."""
+    found = neighbors_of(particles.position, reach or radius, width, active)
+    return Neighbourhood(make_stencil(dim, 1.0, radius, width)).measure(particles, found)
 
 
 def closest(position):
@@ -110,9 +114,7 @@ def number_density_over_n0(case, particles, radius=2.1):
     spacing, width = case.particles.spacing, geometry.period(case)
     stencil = make_stencil(case.dim, spacing, radius, width)
     found = neighbors_of(particles.position, stencil.radius, width)
-    n = np.empty(len(particles))
-    density.number_density(particles.position, found.indptr, found.indices, stencil, n)
-    return n / stencil.n0
+    return Neighbourhood(stencil).measure(particles, found).number_density / stencil.n0
 
 
 def particles_at(position, role=0):

@@ -9,7 +9,7 @@ from mpslab.stopwatch import PHASES
 
 sys.path.append(str(ROOT))  # last: the package under test goes first
 
-from benchmarks import against, pair, program, solvers, timed
+from benchmarks import against, pair, passes, program, solvers, timed
 from benchmarks.replay import Replay
 
 SMALL = {"tank.width": 0.0, "particles.spacing": 0.006}
@@ -82,3 +82,12 @@ def test_stretch_of_a_run_is_timed_by_phase():
     assert sum(found["phases"].values()) == pytest.approx(found["seconds"], rel=0.3)
     lines = against.table([(found, {**found, "cpu": 0.5 * found["cpu"]})])
     assert next(line for line in lines if "processor" in line).endswith("| 2.00 | 2.00 to 2.00 |")
+
+
+def test_passes_are_timed_and_agree_with_their_plain_forms():
+    rows = passes.compare(passes.settled(0.006, warm=1), turns=1)
+    assert [row[0] for row in rows] == list(passes.BYTES)
+    for _, fast, slow, off, share in rows:
+        assert 0.0 < fast < slow
+        assert off < 1e-4
+        assert share > 0.0

@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
-from tanks import cloud, flow_of, make_case, matrices_of, neighbors_of, run
+from tanks import cloud, flow_of, make_case, neighbors_of, particles_at, run, scheme
 
-from mpslab import plugins
-from mpslab.kernels import density, divergence, moments, repulsion, sparse, viscosity
+from mpslab import friction, plugins
+from mpslab.core.neighbourhood import LANES, Neighbourhood
+from mpslab.kernels import sparse
+from mpslab.parameters import Fluid, Scheme
 from mpslab.particles import FACE, FLUID
 from mpslab.stencil import make_stencil
 
@@ -73,57 +75,73 @@ def test_product_does_not_depend_on_the_address():
     assert len({product(by) for by in (0, *SHIFTS)}) == 1
 
 
-def test_particle_sums_do_not_depend_on_the_address():
-    position = cloud(3, 500, 1)
-    velocity = np.random.default_rng(4).normal(size=position.shape)
-    found, stencil = neighbors_of(position, 2.1), make_stencil(3, 1.0, 2.1)
+def placed(by, seed=5):
+    """Neighbourhood of a cloud of water and solids, all of whose arrays lie `by` bytes off."""
+    random = np.random.default_rng(seed)
+    particles = particles_at(cloud(3, 500, 1))
+    particles.role[:] = random.choice([FLUID] * 4 + [FACE], 500)
+    particles.surface[:] = particles.position[:, 2] > 2.0
+    particles.velocity[:] = random.normal(size=(500, 3))
+    particles.pressure[:] = random.uniform(size=500)
+    found = neighbors_of(particles.position, 2.1)
+    for name in vars(particles):
+        setattr(particles, name, shifted(getattr(particles, name), by))
+    found.indptr, found.indices = shifted(found.indptr, by), shifted(found.indices, by)
+    near = Neighbourhood(make_stencil(3, 1.0, 2.1))
+    room = len(found.indices) + LANES
+    near.offset = shifted(np.zeros((room, 4), np.float32), by)
+    near.inverse = shifted(np.zeros(room, np.float32), by)
+    return near.measure(particles, found)
 
+
+def bytes_of(*arrays):
+    return b"".join(np.ascontiguousarray(a).tobytes() for a in arrays)
+
+
+def test_geometry_and_its_sums_do_not_depend_on_the_address():
     def sums(by):
-        n, rate = np.empty(500), np.empty(500)
-        rows = shifted(found.indptr, by), shifted(found.indices, by)
-        density.number_density(shifted(position, by), *rows, stencil, n)
-        divergence.density_rate(shifted(position, by), shifted(velocity, by), *rows, stencil, rate)
-        return n.tobytes() + rate.tobytes()
+        near = placed(by)
+        m = len(near.other)
+        return bytes_of(near.other, near.offset[:m], near.inverse[:m], near.first, near.second)
 
     assert len({sums(by) for by in (0, *SHIFTS)}) == 1
 
 
-def test_sums_with_matrices_do_not_depend_on_the_address():
-    position = cloud(3, 500, 1)
-    velocity = np.random.default_rng(4).normal(size=position.shape)
-    role = np.random.default_rng(5).choice([FLUID] * 4 + [FACE], 500).astype(np.int8)
-    surface = (position[:, 2] > 2.0).astype(np.uint8)
-    found, stencil = neighbors_of(position, 2.1), make_stencil(3, 1.0, 2.1)
+@pytest.mark.parametrize("name", plugins.names("sources"))
+def test_sources_do_not_depend_on_the_address(name):
+    def source(by):
+        near = placed(by)
+        velocity = near.particles.velocity
+        model = plugins.load("sources", name)
+        return bytes_of(model.source(near, velocity, near.number_density, 0.1, 1.0, scheme()))
 
-    def sums(by):
-        c, rate, drag, move = (np.empty((500, n)) for n in (6, 1, 3, 3))
-        x, u, k = shifted(position, by), shifted(velocity, by), shifted(role, by)
-        rows = shifted(found.indptr, by), shifted(found.indices, by)
-        moments.correction_matrix(x, k, *rows, stencil, True, 0.6, c)
-        c = shifted(c, by)
-        divergence.adjoint_divergence(x, u, k, *rows, stencil, c, rate[:, 0])
-        viscosity.viscous_acceleration(x, u, k, *rows, stencil, 1.0, True, drag)
-        repulsion.shifting(x, k, shifted(surface, by), *rows, stencil, c, 1.0, 0.1, move)
-        assert np.any(move)
-        return b"".join(a.tobytes() for a in (c, rate, drag[role == FLUID], move))
+    assert len({source(by) for by in (0, *SHIFTS)}) == 1
 
-    assert len({sums(by) for by in (0, *SHIFTS)}) == 1
+
+@pytest.mark.parametrize("name", plugins.names("stabilisers"))
+def test_stabilisers_do_not_depend_on_the_address(name):
+    def moved(by):
+        near = placed(by)
+        plugins.load("stabilisers", name).stabilise(near, 0.1, scheme())
+        assert np.any(near.particles.position != near.position[:, :3])
+        return bytes_of(near.particles.position, near.particles.velocity)
+
+    assert len({moved(by) for by in (0, *SHIFTS)}) == 1
+
+
+def test_friction_does_not_depend_on_the_address():
+    def drag(by):
+        near, keys = placed(by), Scheme(smagorinsky=0.1)
+        return bytes_of(friction.acceleration(near, near.stencil, Fluid(viscosity=1.0), keys, id))
+
+    assert len({drag(by) for by in (0, *SHIFTS)}) == 1
 
 
 @pytest.mark.parametrize("name", plugins.names("gradients"))
 def test_gradients_do_not_depend_on_the_address(name):
-    position = cloud(3, 500, 1)
-    pressure = np.random.default_rng(5).uniform(size=500)
-    role = np.zeros(500, np.int8)
-    found, stencil = neighbors_of(position, 2.1), make_stencil(3, 1.0, 2.1)
-    c = matrices_of(position, role, found, stencil)
-
     def gradient(by):
         out = np.empty((500, 3))
-        plugins.load("gradients", name).gradient(
-            shifted(position, by), shifted(pressure, by), shifted(role, by),
-            shifted(found.indptr, by), shifted(found.indices, by), stencil, c, out,
-        )  # fmt: skip
+        plugins.load("gradients", name).gradient(placed(by), out)
         return out.tobytes()
 
     assert len({gradient(by) for by in (0, *SHIFTS)}) == 1

@@ -13,7 +13,7 @@ FLOORS = {
     "headings panels catalogue scenes actions",
     4: "step timestep settling",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
-    "deflation conjugate_gradient solids forcings geometry filling correction friction census "
+    "deflation conjugate_gradient solids forcings geometry filling friction census "
     "instruments gauges diagnostics parts reaction models",
     2: "balance communicator headcount domain rebalance",
     1: "particles kinds neighbors stencil sparse slabs parameters scheme keys plugins bed paddle "

@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 from ranks import start
-from tanks import cloud, inside, lattice, make_case, matrices_of, neighbors_of
+from tanks import SINGLE, cloud, inside, lattice, make_case, near_of, particles_at
 
 from mpslab import friction
+from mpslab.core.neighbourhood import padded
 from mpslab.kernels import viscosity
 from mpslab.keys import CaseError
 from mpslab.parameters import Fluid, Scheme
-from mpslab.particles import FACE, FLUID, make_particles
+from mpslab.particles import FACE, FLUID
 from mpslab.simulation import Simulation
-from mpslab.stencil import make_stencil
 
 RATE, CONSTANT = 3.0, 0.2
 LINEAR = {
@@ -23,27 +23,21 @@ ALL = np.array([[1.0, 2.0, -0.5], [3.0, -2.0, 0.7], [0.4, -1.1, 1.3]])
 
 
 def strain_rate(position, velocity, dim, role=None, slip=True):
-    role = np.zeros(len(position), np.int8) if role is None else np.asarray(role, np.int8)
-    stencil = make_stencil(dim, 1.0, 2.1)
-    found = neighbors_of(position, stencil.radius)
-    c = matrices_of(position, role, found, stencil)
+    near = near_of(particles_at(position, FLUID if role is None else role), dim)
     out = np.full(len(position), np.nan)
     viscosity.strain_rate(
-        position, velocity, role, found.indptr, found.indices, stencil, c, slip, out
-    )
+        near.row, near.solid, near.other, near.offset, near.particles.role, near.stencil,
+        padded(velocity), near.correction, slip, out,
+    )  # fmt: skip
     return out
 
 
 def acceleration(position, velocity, dim, nu=0.0, slip=True, role=FLUID):
-    particles = make_particles(position, np.broadcast_to(role, len(position)))
+    particles = particles_at(position, role)
     particles.velocity[:] = velocity
-    stencil = make_stencil(dim, 1.0, 2.1)
-    found = neighbors_of(particles.position, stencil.radius)
-    c = matrices_of(particles.position, particles.role, found, stencil)
+    near = near_of(particles, dim)
     scheme = Scheme(smagorinsky=CONSTANT, wall_slip=slip)
-    return friction.acceleration(
-        particles, found, (stencil, stencil), c, Fluid(viscosity=nu), scheme, lambda _: None
-    )
+    return friction.acceleration(near, near.stencil, Fluid(viscosity=nu), scheme, lambda _: None)
 
 
 @pytest.mark.parametrize("dim", [2, 3])
@@ -52,14 +46,14 @@ def test_strain_rate_of_linear_flow_is_exact_in_disorder(flow, dim):
     matrix, exact = LINEAR[flow]
     position = cloud(dim, 9**dim, 1, jitter=0.2)
     found = strain_rate(position, position @ np.transpose(np.array(matrix, float)), dim)
-    np.testing.assert_allclose(found[inside(position, 1.5)], exact, atol=1e-12)
+    np.testing.assert_allclose(found[inside(position, 1.5)], exact, atol=SINGLE)
 
 
 def test_strain_rate_in_3d_takes_all_components():
     position = cloud(3, 9**3, 2, jitter=0.2)
     found = strain_rate(position, position @ ALL.T, 3)
     exact = np.sqrt(2.0 * np.sum((0.5 * (ALL + ALL.T)) ** 2))
-    np.testing.assert_allclose(found[inside(position, 1.5)], exact, atol=1e-12)
+    np.testing.assert_allclose(found[inside(position, 1.5)], exact, atol=SINGLE)
 
 
 def stream_along_a_wall():
@@ -95,12 +89,11 @@ def test_molecular_and_eddy_viscosity_add_up():
     position = cloud(2, 400, 4, jitter=0.2)
     velocity = np.random.default_rng(5).normal(size=position.shape) * [1, 0, 1]
     both, eddy = (acceleration(position, velocity, 2, nu) for nu in (0.3, 0.0))
-    role, out = np.zeros(len(position), np.int8), np.zeros_like(position)
-    stencil = make_stencil(2, 1.0, 2.1)
-    found = neighbors_of(position, stencil.radius)
+    near, out = near_of(particles_at(position), 2), np.zeros_like(position)
     viscosity.viscous_acceleration(
-        position, velocity, role, found.indptr, found.indices, stencil, 0.3, True, out
-    )
+        near.row, near.solid, near.other, near.inverse, near.particles.role, near.stencil,
+        padded(velocity), 0.3, True, out,
+    )  # fmt: skip
     np.testing.assert_allclose(both, eddy + out, atol=1e-12)
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy.sparse import csr_array, diags_array
-from tanks import cloud, inside, lattice, neighbors_of, particles_at
+from tanks import cloud, inside, lattice, near_of, particles_at
 
 from mpslab import plugins, pressure
 from mpslab.particles import FACE, FILLER, FLUID
@@ -18,10 +18,8 @@ def matrix(particles, dim, radius, name, width=0.0):
     """Matrix of  -(1/rho) <lap p>  and the particle of each row."""
     stencil = make_stencil(dim, 1.0, radius, width)
     terms = plugins.load("laplacians", name).pair_terms(stencil)
-    found = neighbors_of(particles.position, radius * 1.3, width)
-    system, rows = pressure.assemble(
-        particles, found, stencil, terms, DENSITY, np.zeros(len(particles))
-    )
+    near = near_of(particles, dim, radius, width, reach=radius * 1.3)
+    system, rows = pressure.assemble(near, stencil, terms, DENSITY, np.zeros(len(particles)))
     m = len(system)
     off = csr_array((system.value, system.column, system.row), (m, m))
     return (off + diags_array(system.diagonal)).tocsr(), rows

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tanks import inside, lattice, neighbors_of, particles_at
+from tanks import inside, lattice, near_of, particles_at
 
 from mpslab import plugins, pressure
 from mpslab.laplacians.standard import pair_terms
@@ -15,9 +15,9 @@ DENSITY, GRAVITY = 1000.0, 9.81
 
 def assembled(particles, dim=3, source=0.0, laplacian=pair_terms, width=0.0):
     stencil = make_stencil(dim, 1.0, 2.1, width)
-    found = neighbors_of(particles.position, 2.1, width)
+    near = near_of(particles, dim, width=width)
     right = np.broadcast_to(np.asarray(source, float), len(particles)).copy()
-    return pressure.assemble(particles, found, stencil, laplacian(stencil), DENSITY, right)
+    return pressure.assemble(near, stencil, laplacian(stencil), DENSITY, right)
 
 
 def dense(system):

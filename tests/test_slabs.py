@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tanks import flow_of, make_case, neighbors_of, particles_at, run
+from tanks import flow_of, make_case, near_of, particles_at, run
 from test_solvers import as_matrix, dense_factor
 
 from mpslab import pressure
@@ -29,9 +29,9 @@ def system_by_slab(long=24, high=5, by_slab=True):
     domain = Domain(make_slabs(position[:, 0].min(), position[:, 0].max(), RADIUS))
     particles, _ = domain.share_out(particles)
     source = np.random.default_rng(2).normal(size=len(particles))
-    found = neighbors_of(particles.position, RADIUS)
+
     return pressure.assemble(
-        particles, found, stencil, pair_terms(stencil), 1000.0, source,
+        near_of(particles, 3, RADIUS), stencil, pair_terms(stencil), 1000.0, source,
         domain=domain if by_slab else None,
     )  # fmt: skip
 

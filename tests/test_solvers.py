@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import spsolve
-from tanks import cloud, inside, neighbors_of, particles_at
+from tanks import cloud, inside, near_of, particles_at
 
 from mpslab import plugins, pressure
 from mpslab.kernels import sparse
@@ -23,9 +23,8 @@ def water(dim=3, n=700, seed=1, radius=2.1):
     particles.surface[:] = ~inside(x, np.abs(x).max() - 0.5)
     stencil = make_stencil(dim, 1.0, radius)
     source = np.random.default_rng(seed).normal(size=len(particles))
-    return pressure.assemble(
-        particles, neighbors_of(x, radius), stencil, pair_terms(stencil), 1000.0, source
-    )[0]
+    near = near_of(particles, dim, radius)
+    return pressure.assemble(near, stencil, pair_terms(stencil), 1000.0, source)[0]
 
 
 def column_of_water():
@@ -35,9 +34,8 @@ def column_of_water():
     particles.surface[:] = x[:, 2] > x[:, 2].max() - 0.5
     stencil = make_stencil(3, 1.0, 2.1)
     source = np.random.default_rng(4).normal(size=len(particles))
-    return pressure.assemble(
-        particles, neighbors_of(x, 2.1), stencil, pair_terms(stencil), 1000.0, source
-    )[0]
+    near = near_of(particles, 3)
+    return pressure.assemble(near, stencil, pair_terms(stencil), 1000.0, source)[0]
 
 
 def as_matrix(system):

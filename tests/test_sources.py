@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
-from tanks import cloud, inside, lattice, matrices_of, neighbors_of, scheme
+from tanks import SINGLE, cloud, inside, lattice, near_of, particles_at, scheme
 
 from mpslab import plugins
-from mpslab.kernels import density
 from mpslab.stencil import make_stencil
 
 NAMES = plugins.names("sources")
@@ -16,19 +15,12 @@ def source(
     name, position, velocity, dim, radius=2.1, ratio=None, dt=DT, reach=None, rate=5.0, **changes
 ):
     """b at every particle, spacing 1; `ratio` stands in for n over the density of rest."""
-    stencil = make_stencil(dim, 1.0, radius)
-    found = neighbors_of(position, reach or radius)
-    n = np.empty(len(position))
-    density.number_density(position, found.indptr, found.indices, stencil, n)
+    near = near_of(particles_at(position), dim, radius, reach=reach)
+    n, stencil = near.number_density.copy(), near.stencil
     rest = stencil.relaxed if name in ("adjoint", "corrected") else stencil.n0
     n[:] = n * rest / stencil.n0 if ratio is None else ratio * rest
-    out, role = np.full(len(position), np.nan), np.zeros(len(position), np.int8)
-    c = matrices_of(position, role, found, stencil)
-    plugins.load("sources", name).source(
-        position, np.ascontiguousarray(velocity), role, n, found.indptr, found.indices, stencil,
-        c, dt, rate, scheme(**changes), out,
-    )  # fmt: skip
-    return out
+    velocity = np.ascontiguousarray(velocity, float)
+    return plugins.load("sources", name).source(near, velocity, n, dt, rate, scheme(**changes))
 
 
 def at_centre(name, dim, velocity, radius=2.1, **changes):
@@ -54,14 +46,14 @@ def test_six_models_are_there():
 @pytest.mark.parametrize("name", NAMES)
 def test_uniform_motion_at_n0_needs_no_pressure(name, dim):
     scale = abs(at_centre(name, dim, squeeze, ratio=1.01))
-    assert abs(at_centre(name, dim, uniform)) < 1e-9 * scale
+    assert abs(at_centre(name, dim, uniform)) < 100 * SINGLE * scale  # 1e-6 of n, for a 1 %
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_uniform_motion_of_a_random_cloud_at_n0_needs_no_pressure(name):
     position = cloud(3, 300, seed=1)
     b = source(name, position, uniform(position), 3, ratio=1.0)
-    assert np.all(b == 0.0)
+    assert np.abs(b).max() < 1e-11 / DT
 
 
 @pytest.mark.parametrize("dim", [2, 3])
@@ -91,14 +83,16 @@ def test_shear_and_rotation_inside_the_lattice_need_no_pressure(name):
     def shear(x):
         return np.stack([0.3 * x[:, 2] + 0.1 * x[:, 1], -0.1 * x[:, 0], 0.2 * x[:, 0]], axis=1)
 
-    assert abs(at_centre(name, 3, shear)) < 1e-9 * abs(at_centre(name, 3, squeeze, ratio=1.01))
+    assert abs(at_centre(name, 3, shear)) < 100 * SINGLE * abs(
+        at_centre(name, 3, squeeze, ratio=1.01)
+    )
 
 
 def test_corrected_divergence_is_exact_for_linear_velocities_in_any_arrangement():
     position = cloud(3, 400, seed=3)
     matrix = np.array([[0.3, -0.2, 0.1], [0.5, 0.4, -0.3], [0.2, 0.1, -1.1]])
     b = source("corrected", position, position @ matrix.T, 3, ratio=1.0, rate=0.0)
-    exact = np.isclose(b, -np.trace(matrix) / DT, rtol=1e-9)
+    exact = np.isclose(b, -np.trace(matrix) / DT, rtol=10 * SINGLE)
     assert exact.mean() > 0.9  # the rest have too few neighbours for an inverse
 
 
@@ -107,12 +101,9 @@ def test_adjoint_divergence_is_the_adjoint_of_the_corrected_gradient():
     position = cloud(3, 400, seed=3, jitter=0.2)
     random = np.random.default_rng(4)
     velocity, p = random.normal(size=position.shape), random.uniform(size=len(position))
-    found, stencil = neighbors_of(position, 2.1), make_stencil(3, 1.0, 2.1)
-    role, out = np.zeros(len(p), np.int8), np.empty(position.shape)
-    c = matrices_of(position, role, found, stencil)
-    plugins.load("gradients", "corrected").gradient(
-        position, p, role, found.indptr, found.indices, stencil, c, out
-    )
+    particles, out = particles_at(position), np.empty(position.shape)
+    particles.pressure[:] = p
+    plugins.load("gradients", "corrected").gradient(near_of(particles, 3), out)
     divergence = -DT * source("adjoint", position, velocity, 3, ratio=1.0, rate=0.0)
     assert p @ divergence == pytest.approx(-np.sum(velocity * out), rel=1e-10)
 
@@ -176,14 +167,12 @@ def test_hs_is_the_rate_of_the_number_density():
     """Against the number density itself, a small time before and after."""
     position = cloud(3, 300, seed=4, jitter=0.2)
     velocity = np.random.default_rng(5).normal(size=position.shape)
-    stencil, small = make_stencil(3, 1.0, 2.1), 1e-7
+    stencil, small, n = make_stencil(3, 1.0, 2.1), 1e-7, []
     # Pairs that cross the radius have no derivative of w; there w' jumps from -1/r_e to 0.
-    n = []
     for time in (-small, small):
         moved = position + time * velocity
-        found, here = neighbors_of(moved, 2.1), np.empty(len(position))
-        density.number_density(moved, found.indptr, found.indices, stencil, here)
-        n.append(here)
+        r = np.linalg.norm(moved[:, None] - moved, axis=-1) + 1e9 * np.eye(len(moved))
+        n.append(np.maximum(2.1 / r - 1.0, 0.0).sum(axis=1))
     rate = (n[1] - n[0]) / (2.0 * small) / stencil.n0
     b = source("hs", position, velocity, 3)
     np.testing.assert_allclose(b * DT, rate, rtol=1e-5, atol=1e-5)
@@ -202,4 +191,4 @@ def test_mixed_is_divergence_over_dt_plus_a_share_of_the_deviation():
     """Exact divergence of a linear field on the lattice: -div u/dt + s (n - n0)/(n0 dt)."""
     for dim in (2, 3):
         b = at_centre("mixed", dim, squeeze, ratio=1.03, rate=50.0)
-        assert b == pytest.approx(0.2 * dim / DT + 50.0 * 0.03 / DT, rel=1e-12)
+        assert b == pytest.approx(0.2 * dim / DT + 50.0 * 0.03 / DT, rel=SINGLE)

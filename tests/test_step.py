@@ -84,9 +84,10 @@ def test_stabilisers_act_in_their_stage_with_the_positions_of_the_prediction():
     flow, calls = flow_of(make_case(CLASSIC)), []
 
     def model(stage):
-        def stabilise(particles, before, neighbors, stencil, correction, dt, scheme):
-            by_gid = np.argsort(particles.gid)
-            calls.append((stage, before[by_gid], particles.position[by_gid], dt))
+        def stabilise(near, dt, pace, scheme):
+            by_gid = np.argsort(near.particles.gid)
+            before, now = near.position[:, :3], near.particles.position
+            calls.append((stage, before[by_gid], now[by_gid], dt))
 
         return SimpleNamespace(STAGE=stage, stabilise=stabilise)
 

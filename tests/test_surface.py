@@ -2,24 +2,19 @@
 
 import numpy as np
 import pytest
-from tanks import cloud, inside, lattice, neighbors_of, particles_at
+from tanks import SINGLE, cloud, inside, lattice, near_of, particles_at
 
-from mpslab.kernels import density
 from mpslab.particles import FACE, FILLER, FLUID
-from mpslab.stencil import make_stencil
 from mpslab.surface import mark_surface
 
 
 def marked(position, dim, radius=2.1, role=FLUID, search=None, threshold=0.97):
     """Particles with number density and surface mark, spacing 1."""
     particles = particles_at(np.asarray(position, float), role)
-    found = neighbors_of(particles.position, search or radius)
-    stencil = make_stencil(dim, 1.0, radius)
-    density.number_density(
-        particles.position, found.indptr, found.indices, stencil, particles.number_density
-    )
-    mark_surface(particles, found, stencil, threshold, particles.carries_pressure)
-    return particles, stencil
+    near = near_of(particles, dim, radius, reach=search)
+    particles.number_density[:] = near.number_density
+    mark_surface(near, threshold, particles.carries_pressure)
+    return particles, near.stencil
 
 
 def layers_under_a_flat_surface(dim, radius):
@@ -56,7 +51,7 @@ def test_number_density_is_the_sum_of_the_weights(dim):
     particles, _ = marked(position, dim, search=3.1)
     r = np.linalg.norm(position[:, None] - position, axis=-1) + 1e9 * np.eye(len(position))
     expected = np.maximum(2.1 / r - 1.0, 0.0).sum(axis=1)
-    np.testing.assert_allclose(particles.number_density, expected, rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(particles.number_density, expected, rtol=SINGLE)
 
 
 @pytest.mark.parametrize("dim", [2, 3])
@@ -70,7 +65,7 @@ def test_only_the_top_layer_of_still_water_is_surface(dim):
 def test_inside_of_a_lattice_is_at_n0_and_not_surface(dim):
     particles, stencil = marked(lattice(dim, 5), dim)
     core = inside(particles.position, 2)
-    np.testing.assert_allclose(particles.number_density[core], stencil.n0, rtol=1e-13)
+    np.testing.assert_allclose(particles.number_density[core], stencil.n0, rtol=SINGLE)
     assert np.all(particles.surface[core] == 0)
 
 

@@ -2,22 +2,23 @@
 
 import numpy as np
 import pytest
-from tanks import cloud, inside, lattice, neighbors_of
+from tanks import cloud, inside, lattice, near_of, particles_at
 
+from mpslab.core.neighbourhood import padded
 from mpslab.kernels import viscosity
 from mpslab.particles import FACE, FILLER, FLUID
-from mpslab.stencil import make_stencil
 
 NU = 0.3
 
 
 def acceleration(position, velocity, dim, radius=2.1, role=None, slip=True):
-    role = np.zeros(len(position), np.int8) if role is None else np.asarray(role, np.int8)
-    found, stencil = neighbors_of(position, radius * 1.2), make_stencil(dim, 1.0, radius)
+    particles = particles_at(position, FLUID if role is None else role)
     out = np.zeros_like(position)
+    near = near_of(particles, dim, radius, reach=radius * 1.2)
     viscosity.viscous_acceleration(
-        position, velocity, role, found.indptr, found.indices, stencil, NU, slip, out
-    )
+        near.row, near.solid, near.other, near.inverse, particles.role, near.stencil,
+        padded(velocity), NU, slip, out,
+    )  # fmt: skip
     return out
 
 

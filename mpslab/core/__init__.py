@@ -1,1 +1,1 @@
-"""What all the rest stands on: the lattice, the grid of cells, and how libraries are loaded."""
+"""What all the rest stands on: cells, pairs and their geometry, and how libraries are loaded."""

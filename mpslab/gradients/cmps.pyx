@@ -1,51 +1,35 @@
 """Pressure gradient of the Corrected MPS method (CMPS)."""
+from dataclasses import replace
+
 import numpy as np
 
 from mpslab.gradients import symmetric
 from mpslab.kernels.minimum import least_pressure
-from mpslab.kernels.pair cimport FLUID, distance, has_pressure, weight, wrap
 
 CONSERVES_MOMENTUM = True
 EXACT_FOR_LINEAR = False
 
 
-def gradient(const double[:, ::1] position, const double[::1] pressure,
-             const signed char[::1] role, const int[::1] indptr, const int[::1] indices,
-             stencil, correction, double[:, ::1] out):
+def gradient(near, double[:, ::1] out):
     """<grad p>_i = (Ds/n0) sum_j ((p_i + p_j) - (p^_i + p^_j)) r_ij w / r^2.
 
     Equation (4) of the paper, with the square that its print lacks: the pair force is equal and
-    opposite.  In a linear pressure on a regular lattice the bracket is the same for every j and
-    the sum vanishes: still water is held only by a curved pressure, several times hydrostatic.
+    opposite.  It is that of `symmetric` with p - p^ in place of p.  In a linear pressure on a
+    regular lattice the bracket is the same for every j and the sum vanishes: still water is held
+    only by a curved pressure, several times hydrostatic.
     """
-    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
-    cdef double factor = stencil.dim / stencil.n0
-    cdef double[::1] least = np.empty(pressure.shape[0])
-    cdef double dx, dy, dz, r, c, gx, gy, gz
-    cdef Py_ssize_t i, k, j
-    least_pressure(position, pressure, role, indptr, indices, stencil, least)
-    with nogil:
-        for i in range(indptr.shape[0] - 1):
-            gx = gy = gz = 0.0
-            for k in range(indptr[i], indptr[i + 1] if role[i] == FLUID else indptr[i]):
-                j = indices[k]
-                dx = position[j, 0] - position[i, 0]
-                dy = wrap(position[j, 1] - position[i, 1], width)
-                dz = position[j, 2] - position[i, 2]
-                r = distance(dx, dy, dz, floor)
-                c = ((pressure[i] + pressure[j]) - (least[i] + least[j])) * weight(r, radius)
-                c = c / (r * r)
-                c = c if has_pressure(role[j]) else 0.0
-                gx += c * dx
-                gy += c * dy
-                gz += c * dz
-            out[i, 0] = factor * gx
-            out[i, 1] = factor * gy
-            out[i, 2] = factor * gz
+    by_pairs, pressure = as_pairs(near)
+    by_pairs(near.of(replace(near.particles, pressure=pressure)), out)
 
 
-def as_pairs(position, pressure, role, indptr, indices, stencil):
-    """That of `symmetric` with p - p^ in place of p, which looks at one pair at a time."""
+def as_pairs(near):
+    """That of `symmetric`, and p - p^ [Pa]."""
+    return symmetric.gradient, above_least(near)
+
+
+def above_least(near):
+    """p - p^ of all particles, (n,) float64 [Pa]."""
+    pressure = near.particles.pressure
     least = np.empty_like(pressure)
-    least_pressure(position, pressure, role, indptr, indices, stencil, least)
-    return symmetric.gradient, pressure - least
+    least_pressure(near.row, near.other, near.offset, pressure, near.loaded, least)
+    return pressure - least

@@ -1,49 +1,43 @@
 """Conservative corrected pressure gradient (reverse kernel gradient correction)."""
-from mpslab.kernels.pair cimport FLUID, distance, weight, wrap
-
-from mpslab.kernels import shares
+from mpslab.kernels.lanes cimport four, lane, nothing, plus
+from mpslab.kernels.pair cimport FLUID, pull, turned
 
 CONSERVES_MOMENTUM = True
 EXACT_FOR_LINEAR = False
-NEEDS_CORRECTION = True
 
 
-def gradient(const double[:, ::1] position, const double[::1] pressure,
-             const signed char[::1] role, const int[::1] indptr, const int[::1] indices,
-             stencil, const double[:, ::1] c, double[:, ::1] out):
+def gradient(near, double[:, ::1] out):
     """<grad p>_i = (Ds/n0) sum_j (p_i C_j + p_j C_i) r_ij w / r^2 (Zhang, Adams & Hu 2024).
 
-    C is the correction matrix (`mpslab.correction`); walls take that of the water particle.
-    The pair force is equal and opposite, but not central: linear momentum is conserved, angular
-    momentum nearly.
+    C is the correction matrix; walls take that of the water particle.  The pair force is equal and
+    opposite, but not central: linear momentum is conserved, angular momentum nearly.
+
+    Taken as p_i S_i + C_i sum_j p_j r_ij w/r^2, where S_i = sum_j C_j r_ij w/r^2 (`near.lean`)
+    does not depend on the pressure.
     """
-    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
-    cdef double factor = stencil.dim / stencil.n0
-    cdef const double[::1] water = shares.of_water(role), loaded = shares.of_loaded(role)
-    cdef double dx, dy, dz, r, w, pi, a, b, xx, yy, zz, xy, xz, yz, gx, gy, gz
-    cdef Py_ssize_t i, k, j
+    cdef const int[::1] row = near.row, solid = near.solid, other = near.other
+    cdef const float[:, ::1] offset = near.offset
+    cdef const double[:, :, ::1] c = near.correction
+    cdef const double[:, ::1] lean = near.lean
+    cdef const double[::1] pressure = near.particles.pressure
+    cdef const signed char[::1] role = near.particles.role
+    cdef const unsigned char[::1] loaded = near.loaded
+    cdef double factor = near.stencil.dim / near.stencil.n0
+    cdef four total
+    cdef Py_ssize_t i, k, j, a
     with nogil:
-        for i in range(indptr.shape[0] - 1):
-            gx = gy = gz = 0.0
-            pi = pressure[i]
-            for k in range(indptr[i], indptr[i + 1] if role[i] == FLUID else indptr[i]):
-                j = indices[k]
-                dx = position[j, 0] - position[i, 0]
-                dy = wrap(position[j, 1] - position[i, 1], width)
-                dz = position[j, 2] - position[i, 2]
-                r = distance(dx, dy, dz, floor)
-                w = loaded[j] * weight(r, radius) / (r * r)
-                a = pi * water[j]
-                b = pi - a + pressure[j]
-                xx = a * c[j, 0] + b * c[i, 0]
-                yy = a * c[j, 1] + b * c[i, 1]
-                zz = a * c[j, 2] + b * c[i, 2]
-                xy = a * c[j, 3] + b * c[i, 3]
-                xz = a * c[j, 4] + b * c[i, 4]
-                yz = a * c[j, 5] + b * c[i, 5]
-                gx += w * (xx * dx + xy * dy + xz * dz)
-                gy += w * (xy * dx + yy * dy + yz * dz)
-                gz += w * (xz * dx + yz * dy + zz * dz)
-            out[i, 0] = factor * gx
-            out[i, 1] = factor * gy
-            out[i, 2] = factor * gz
+        for i in range(solid.shape[0]):
+            out[i, 0] = out[i, 1] = out[i, 2] = 0.0
+            if role[i] != FLUID:
+                continue
+            total = nothing()
+            for k in range(row[i], solid[i]):
+                total = plus(total, pressure[other[k]], pull(&offset[k, 0]))
+            for k in range(solid[i], row[i + 1]):
+                j = other[k]
+                # A solid without a pressure stands in S_i, with C_i, and is taken out of it.
+                total = plus(total, pressure[j] if loaded[j] else -pressure[i],
+                             pull(&offset[k, 0]))
+            total = turned(&c[i, 0, 0], total)
+            for a in range(3):
+                out[i, a] = factor * (pressure[i] * lean[i, a] + lane(total, a))

@@ -1,118 +1,96 @@
-"""Rates of compression, for the right-hand sides of the pressure equation."""
-from mpslab.kernels.pair cimport distance, weight, wrap
+"""Rates of compression, for the right-hand sides of the pressure equation.
 
-from mpslab.kernels import shares
+row, solid, other, offset, inverse : pairs, see mpslab.kernels.measure
+velocity : (n, 3) [m/s]
+"""
+from mpslab.kernels.lanes cimport four, lane, nothing, plus
+from mpslab.kernels.pair cimport along, plus_turned, pull, turned
 
 
-def divergence(const double[:, ::1] position, const double[:, ::1] velocity,
-               const int[::1] indptr, const int[::1] indices, stencil, double[::1] out):
+def divergence(const int[::1] row, const int[::1] other, const float[:, ::1] offset, stencil,
+               const double[:, ::1] velocity, double[::1] out):
     """<div u>_i = (Ds/n0) sum_j u_ij . r_ij w / r^2 over all neighbours [1/s]."""
-    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = stencil.dim / stencil.n0
-    cdef double dx, dy, dz, r, total
-    cdef Py_ssize_t i, k, j
+    cdef double total
+    cdef Py_ssize_t i, k
     with nogil:
-        for i in range(indptr.shape[0] - 1):
+        for i in range(out.shape[0]):
             total = 0.0
-            for k in range(indptr[i], indptr[i + 1]):
-                j = indices[k]
-                dx = position[j, 0] - position[i, 0]
-                dy = wrap(position[j, 1] - position[i, 1], width)
-                dz = position[j, 2] - position[i, 2]
-                r = distance(dx, dy, dz, floor)
-                total += ((velocity[j, 0] - velocity[i, 0]) * dx
-                          + (velocity[j, 1] - velocity[i, 1]) * dy
-                          + (velocity[j, 2] - velocity[i, 2]) * dz) * weight(r, radius) / (r * r)
+            for k in range(row[i], row[i + 1]):
+                total += offset[k, 3] * along(&velocity[other[k], 0], &velocity[i, 0],
+                                              &offset[k, 0])
             out[i] = factor * total
 
 
-def density_rate(const double[:, ::1] position, const double[:, ::1] velocity,
-                 const int[::1] indptr, const int[::1] indices, stencil, double[::1] out):
+def density_rate(const int[::1] row, const int[::1] other, const float[:, ::1] offset,
+                 const float[::1] inverse, stencil, const double[:, ::1] velocity,
+                 double[::1] out):
     """(Dn/Dt)_i = -sum_j (r_e/r^3) r_ij . u_ij over all neighbours (Khayyer & Gotoh 2009) [1/s]."""
-    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
-    cdef double dx, dy, dz, r, total
-    cdef Py_ssize_t i, k, j
+    cdef double radius = stencil.radius
+    cdef double near, total
+    cdef Py_ssize_t i, k
     with nogil:
-        for i in range(indptr.shape[0] - 1):
+        for i in range(out.shape[0]):
             total = 0.0
-            for k in range(indptr[i], indptr[i + 1]):
-                j = indices[k]
-                dx = position[j, 0] - position[i, 0]
-                dy = wrap(position[j, 1] - position[i, 1], width)
-                dz = position[j, 2] - position[i, 2]
-                r = distance(dx, dy, dz, floor)
-                total += ((velocity[j, 0] - velocity[i, 0]) * dx
-                          + (velocity[j, 1] - velocity[i, 1]) * dy
-                          + (velocity[j, 2] - velocity[i, 2]) * dz
-                          ) * (1.0 if r < radius else 0.0) / (r * r * r)
+            for k in range(row[i], row[i + 1]):
+                near = inverse[k] if radius * inverse[k] > 1.0 else 0.0
+                total += near * near * near * along(&velocity[other[k], 0], &velocity[i, 0],
+                                                    &offset[k, 0])
             out[i] = -radius * total
 
 
-def corrected_divergence(const double[:, ::1] position, const double[:, ::1] velocity,
-                         const int[::1] indptr, const int[::1] indices, stencil,
-                         const double[:, ::1] c, double[::1] out):
+def corrected_divergence(const int[::1] row, const int[::1] other, const float[:, ::1] offset,
+                         stencil, const double[:, ::1] velocity, const double[:, :, ::1] c,
+                         double[::1] out):
     """<div u>_i = (Ds/n0) sum_j u_ij . C_i r_ij w / r^2, exact for linear velocities [1/s].
 
-    c : (n, 6) correction matrices over the same neighbours; see mpslab.kernels.moments
+    c : (n, 3, 4) correction matrices over the same neighbours; see mpslab.kernels.moments
     """
-    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = stencil.dim / stencil.n0
-    cdef double dx, dy, dz, r, ux, uy, uz, total
+    cdef four g, x, y, z
     cdef Py_ssize_t i, k, j
     with nogil:
-        for i in range(indptr.shape[0] - 1):
-            total = 0.0
-            for k in range(indptr[i], indptr[i + 1]):
-                j = indices[k]
-                dx = position[j, 0] - position[i, 0]
-                dy = wrap(position[j, 1] - position[i, 1], width)
-                dz = position[j, 2] - position[i, 2]
-                ux = velocity[j, 0] - velocity[i, 0]
-                uy = velocity[j, 1] - velocity[i, 1]
-                uz = velocity[j, 2] - velocity[i, 2]
-                r = distance(dx, dy, dz, floor)
-                total += (ux * (c[i, 0] * dx + c[i, 3] * dy + c[i, 4] * dz)
-                          + uy * (c[i, 3] * dx + c[i, 1] * dy + c[i, 5] * dz)
-                          + uz * (c[i, 4] * dx + c[i, 5] * dy + c[i, 2] * dz)
-                          ) * weight(r, radius) / (r * r)
-            out[i] = factor * total
+        for i in range(out.shape[0]):
+            x = y = z = nothing()
+            for k in range(row[i], row[i + 1]):
+                j, g = other[k], pull(&offset[k, 0])
+                x = plus(x, velocity[j, 0] - velocity[i, 0], g)
+                y = plus(y, velocity[j, 1] - velocity[i, 1], g)
+                z = plus(z, velocity[j, 2] - velocity[i, 2], g)
+            out[i] = factor * (lane(turned(&c[i, 0, 0], x), 0) + lane(turned(&c[i, 0, 0], y), 1)
+                               + lane(turned(&c[i, 0, 0], z), 2))
 
 
-def adjoint_divergence(const double[:, ::1] position, const double[:, ::1] velocity,
-                       const signed char[::1] role, const int[::1] indptr,
-                       const int[::1] indices, stencil, const double[:, ::1] c,
-                       double[::1] out):
-    """<div u>_i = (Ds/n0) sum_j u_ij . C_j r_ij w / r^2: adjoint of the conservative gradient [1/s].
+def adjoint(const int[::1] row, const int[::1] solid, const int[::1] other,
+            const float[:, ::1] offset, const double[:, ::1] velocity,
+            double[:, :, ::1] c, double[:, ::1] out):
+    """S_i = sum_j D_j r_ij w/r^2 and sum_j u_ij . D_j r_ij w/r^2: (n, 4) out [1/m, 1/(m s)].
 
-    sum_i p_i <div u>_i = -sum_i u_i . <grad p>_i with (Ds/n0) sum_j (p_i C_j + p_j C_i) r_ij w/r^2,
-    where all particles are fluid.
+    D_j is C_j of a water particle; of a solid it is C_i.  The sum over water is one product: of
+    the three columns (C_j, C_j u_j) with r_ij w/r^2.
 
-    c : (n, 6) matrices C of the fluid particles; solids take that of their neighbour
+    c : (n, 3, 4) correction matrices; the fourth numbers become C_j u_j
     """
-    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
-    cdef double factor = stencil.dim / stencil.n0
-    cdef const double[::1] water = shares.of_water(role)
-    cdef double dx, dy, dz, r, ux, uy, uz, a, b, total
-    cdef Py_ssize_t i, k, j
+    cdef double u, v, w, div
+    cdef four total, g
+    cdef Py_ssize_t i, k, j, a
     with nogil:
-        for i in range(indptr.shape[0] - 1):
-            total = 0.0
-            for k in range(indptr[i], indptr[i + 1]):
-                j = indices[k]
-                a = water[j]
-                b = 1.0 - a
-                dx = position[j, 0] - position[i, 0]
-                dy = wrap(position[j, 1] - position[i, 1], width)
-                dz = position[j, 2] - position[i, 2]
-                ux = velocity[j, 0] - velocity[i, 0]
-                uy = velocity[j, 1] - velocity[i, 1]
-                uz = velocity[j, 2] - velocity[i, 2]
-                r = distance(dx, dy, dz, floor)
-                total += ((a * c[j, 0] + b * c[i, 0]) * ux * dx
-                          + (a * c[j, 1] + b * c[i, 1]) * uy * dy
-                          + (a * c[j, 2] + b * c[i, 2]) * uz * dz
-                          + (a * c[j, 3] + b * c[i, 3]) * (ux * dy + uy * dx)
-                          + (a * c[j, 4] + b * c[i, 4]) * (ux * dz + uz * dx)
-                          + (a * c[j, 5] + b * c[i, 5]) * (uy * dz + uz * dy)
-                          ) * weight(r, radius) / (r * r)
-            out[i] = factor * total
+        for i in range(out.shape[0]):
+            u, v, w = velocity[i, 0], velocity[i, 1], velocity[i, 2]
+            for a in range(3):
+                c[i, a, 3] = c[i, a, 0] * u + c[i, a, 1] * v + c[i, a, 2] * w
+        for i in range(out.shape[0]):
+            total = nothing()
+            for k in range(row[i], solid[i]):
+                total = plus_turned(total, &c[other[k], 0, 0], pull(&offset[k, 0]))
+            div = lane(total, 3)
+            for k in range(solid[i], row[i + 1]):
+                j = other[k]
+                g = turned(&c[i, 0, 0], pull(&offset[k, 0]))
+                total = plus(total, 1.0, g)
+                div += (velocity[j, 0] * lane(g, 0) + velocity[j, 1] * lane(g, 1)
+                        + velocity[j, 2] * lane(g, 2))
+            for a in range(3):
+                out[i, a] = lane(total, a)
+                div -= velocity[i, a] * lane(total, a)
+            out[i, 3] = div

@@ -1,53 +1,48 @@
 """Correction matrix of the gradient: the inverse of the neighbours' second moment."""
-import numpy as np
-
-from mpslab.kernels.pair cimport distance, weight, wrap
-
-from mpslab.kernels import shares
 
 
-def correction_matrix(const double[:, ::1] position, const signed char[::1] role,
-                      const int[::1] indptr, const int[::1] indices, stencil, bint dummies,
-                      double least_determinant, double[:, ::1] out):
+def invert(const double[:, :, ::1] second, stencil, double least_determinant,
+           double[:, :, ::1] out):
     """C_i = [(Ds/n0) sum_j w r_ij (x) r_ij / r^2]^-1 (Khayyer & Gotoh 2011) [-].
 
-    dummies : whether the layers behind the walls count in the sum
+    second : (n, 3, 4), see mpslab.kernels.measure
     least_determinant : below it the matrix is too close to singular and C_i = I
-    out : (n, 6), the components xx, yy, zz, xy, xz, yz
+    out : (n, 3, 4), the columns of C_i; the fourth number of each is 0
     """
-    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double factor = stencil.dim / stencil.n0
-    cdef const double[::1] share = np.ones(role.shape[0]) if dummies else shares.of_loaded(role)
     cdef bint flat = stencil.dim == 2
-    cdef double dx, dy, dz, r, w, xx, yy, zz, xy, xz, yz, det
-    cdef Py_ssize_t i, k, j
+    cdef double xx, yy, zz, xy, xz, yz, det
+    cdef Py_ssize_t i
     with nogil:
-        for i in range(indptr.shape[0] - 1):
-            xx = yy = zz = xy = xz = yz = 0.0
-            for k in range(indptr[i], indptr[i + 1]):
-                j = indices[k]
-                dx = position[j, 0] - position[i, 0]
-                dy = wrap(position[j, 1] - position[i, 1], width)
-                dz = position[j, 2] - position[i, 2]
-                r = distance(dx, dy, dz, floor)
-                w = factor * share[j] * weight(r, radius) / (r * r)
-                xx += w * dx * dx
-                yy += w * dy * dy
-                zz += w * dz * dz
-                xy += w * dx * dy
-                xz += w * dx * dz
-                yz += w * dy * dz
+        for i in range(second.shape[0]):
+            xx, xy, xz = factor * second[i, 0, 0], factor * second[i, 0, 1], factor * second[i, 0, 2]
+            yy, yz, zz = factor * second[i, 1, 1], factor * second[i, 1, 2], factor * second[i, 2, 2]
             if flat:
                 yy = 1.0
             det = (xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz)
                    + xz * (xy * yz - yy * xz))
             if det < least_determinant:
-                out[i, 0] = out[i, 1] = out[i, 2] = 1.0
-                out[i, 3] = out[i, 4] = out[i, 5] = 0.0
-                continue
-            out[i, 0] = (yy * zz - yz * yz) / det
-            out[i, 1] = (xx * zz - xz * xz) / det
-            out[i, 2] = (xx * yy - xy * xy) / det
-            out[i, 3] = (xz * yz - xy * zz) / det
-            out[i, 4] = (xy * yz - xz * yy) / det
-            out[i, 5] = (xy * xz - xx * yz) / det
+                xx = yy = zz = det = 1.0
+                xy = xz = yz = 0.0
+            out[i, 0, 0] = (yy * zz - yz * yz) / det
+            out[i, 1, 1] = (xx * zz - xz * xz) / det
+            out[i, 2, 2] = (xx * yy - xy * xy) / det
+            out[i, 0, 1] = out[i, 1, 0] = (xz * yz - xy * zz) / det
+            out[i, 0, 2] = out[i, 2, 0] = (xy * yz - xz * yy) / det
+            out[i, 1, 2] = out[i, 2, 1] = (xy * xz - xx * yz) / det
+            out[i, 0, 3] = out[i, 1, 3] = out[i, 2, 3] = 0.0
+
+
+def without_fillers(const int[::1] row, const int[::1] solid, const int[::1] other,
+                    const float[:, ::1] offset, const unsigned char[::1] loaded,
+                    double[:, :, ::1] second):
+    """Take neighbours that carry no pressure out of second moments, in place."""
+    cdef Py_ssize_t i, k, a, b
+    with nogil:
+        for i in range(solid.shape[0]):
+            for k in range(solid[i], row[i + 1]):
+                if loaded[other[k]]:
+                    continue
+                for a in range(3):
+                    for b in range(3):
+                        second[i, a, b] -= offset[k, 3] * offset[k, a] * <double>offset[k, b]

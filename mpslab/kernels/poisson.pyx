@@ -1,57 +1,48 @@
 """Assembly of the Poisson equation of pressure."""
-from mpslab.kernels.pair cimport distance, has_pressure, wrap
-
-# Neighbours whose coefficients are computed together, in vector lanes, before they are looked at.
-cdef enum:
-    LANES = 64
+from mpslab.kernels.pair cimport LANES, coefficient
 
 
-def assemble(const double[:, ::1] position, const signed char[::1] role, const int[::1] indptr,
-             const int[::1] indices, const int[::1] rows, const int[::1] unknown, stencil,
-             pair_terms, double scale, int[::1] row, int[::1] column, float[::1] value,
-             double[::1] diagonal, double[::1] excess):
-    """Rows of  -scale <lap p>  for the particles `rows`; `unknown` is their number (others: -1).
+def assemble(const int[::1] row_of, const int[::1] other, const float[::1] inverse,
+             const int[::1] rows, const int[::1] unknown, stencil, pair_terms, double scale,
+             int[::1] row, int[::1] column, float[::1] value, double[::1] diagonal,
+             double[::1] excess):
+    """Rows of  -scale <lap p>  for the particles `rows`; `unknown` is the number of their row.
 
     Off-diagonal entries are -scale L(r_ij); the diagonal is the sum of scale L(r_ij) over all
-    neighbours that carry a pressure, so that free-surface particles act as p = 0 and walls as
-    dp/dn = 0.  Entries are rounded to single precision, half of what a product has to read, before
-    they are summed: rows still add up to nothing.  `excess` is what a diagonal has above its row:
-    the pull of the free surface.
+    neighbours in the equation, also those at the free surface, where p = 0 (`unknown` is -1).
+    Those that are not in it act as dp/dn = 0 (-2).  Entries are rounded to single precision, half of what a
+    product has to read, before they are summed: rows still add up to nothing.  `excess` is what a
+    diagonal has above its row: the pull of the free surface.
 
+    row_of, other, inverse : pairs, see mpslab.kernels.measure
     row : (m + 1,) out; column, value : (entries,) out, long enough; diagonal, excess : (m,) out
     """
-    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
-    cdef double one = pair_terms[0], inverse = pair_terms[1], cubic = pair_terms[2]
-    cdef double a, total, free
-    cdef double[LANES] pair
-    cdef Py_ssize_t m, i, k, j, begin, end
-    cdef int entry = 0
+    cdef double radius = stencil.radius
+    cdef double one = pair_terms[0], first = pair_terms[1], third = pair_terms[2]
+    cdef double total, free
+    cdef float a, none = 0
+    cdef float[LANES] pair
+    cdef Py_ssize_t m, i, k, begin, end, lane
+    cdef int u, entry = 0
     with nogil:
         for m in range(rows.shape[0]):
             i = rows[m]
             row[m] = entry
             total = free = 0.0
-            end = indptr[i]
-            while end < indptr[i + 1]:
-                begin, end = end, min(end + LANES, indptr[i + 1])
+            end = row_of[i]
+            while end < row_of[i + 1]:
+                begin, end = end, min(end + LANES, row_of[i + 1])
+                for lane in range(LANES):
+                    pair[lane] = <float>(scale * coefficient(inverse[begin + lane], radius, one,
+                                                             first, third))
                 for k in range(begin, end):
-                    j = indices[k]
-                    pair[k - begin] = scale * coefficient(
-                        distance(position[j, 0] - position[i, 0],
-                                 wrap(position[j, 1] - position[i, 1], width),
-                                 position[j, 2] - position[i, 2], floor),
-                        radius, one, inverse, cubic)
-                for k in range(begin, end):
-                    j, a = indices[k], <float>pair[k - begin]
-                    if a == 0.0 or not has_pressure(role[j]):
-                        continue
+                    u = unknown[other[k]]
+                    a = pair[k - begin] if u > -2 else none
                     total += a
-                    if unknown[j] < 0:
-                        free += a
-                    else:
-                        column[entry] = unknown[j]
-                        value[entry] = <float>-a
-                        entry += 1
+                    free += a if u < 0 else none
+                    column[entry] = u
+                    value[entry] = -a
+                    entry += (a != none) & (u >= 0)
             diagonal[m] = total
             excess[m] = free
         row[diagonal.shape[0]] = entry
@@ -61,27 +52,24 @@ def assemble(const double[:, ::1] position, const signed char[::1] role, const i
 def reach(const int[::1] row, const int[::1] column, unsigned char[::1] reached):
     """Mark the rows that can be reached from those marked, over symmetric couplings.
 
-    Sweeps forth and back: a row looks for the first one it is coupled to that is marked already.
+    Sweeps back and forth: a row looks for one it is coupled to that is marked already, first where
+    the sweep comes from.  Particles are numbered upwards, so the first sweep, down from the
+    surface, finds nearly all at the first look.
     """
-    cdef Py_ssize_t m, rows = reached.shape[0]
+    cdef Py_ssize_t m, k, rows = reached.shape[0]
     cdef bint found = True
     with nogil:
         while found:
             found = False
-            for m in range(rows):
-                found |= touches(m, row, column, reached)
             for m in range(rows - 1, -1, -1):
-                found |= touches(m, row, column, reached)
-
-
-cdef inline bint touches(Py_ssize_t m, const int[::1] row, const int[::1] column,
-                         unsigned char[::1] reached) noexcept nogil:
-    """Mark a row that is not, if one that it is coupled to is; whether that was so."""
-    cdef Py_ssize_t k
-    if reached[m]:
-        return False
-    for k in range(row[m], row[m + 1]):
-        if reached[column[k]]:
-            reached[m] = 1
-            return True
-    return False
+                if not reached[m]:
+                    for k in range(row[m + 1] - 1, row[m] - 1, -1):
+                        if reached[column[k]]:
+                            found = reached[m] = True
+                            break
+            for m in range(rows):
+                if not reached[m]:
+                    for k in range(row[m], row[m + 1]):
+                        if reached[column[k]]:
+                            found = reached[m] = True
+                            break

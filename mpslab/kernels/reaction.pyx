@@ -2,20 +2,24 @@
 from mpslab.kernels.pair cimport FLUID
 
 
-def with_solids(const signed char[::1] role, const int[::1] indptr, const int[::1] indices,
-                int[::1] first, int[::1] found):
-    """Of a neighbour list, the pairs of water with solids, as such a list.
+def with_solids(const signed char[::1] role, const int[::1] row, const int[::1] solid,
+                const int[::1] other, const unsigned char[::1] wanted, int[::1] first,
+                int[::1] found):
+    """The pairs of water with the wanted particles of solids, by their numbers.
 
-    first : (n + 1,) out;  found : out, as long as `indices`
+    row, solid, other : pairs, see mpslab.kernels.measure
+    first : (n + 1,) out, where the pairs of each particle begin in `found`
+    found : out, long enough
 
     Returns how many there are.
     """
-    cdef Py_ssize_t i, k, count = 0
+    cdef Py_ssize_t i, k, n = role.shape[0]
+    cdef int count = 0
     with nogil:
-        for i in range(indptr.shape[0] - 1):
+        for i in range(n):
             first[i] = count
-            for k in range(indptr[i], indptr[i + 1] if role[i] == FLUID else indptr[i]):
-                found[count] = indices[k]
-                count += role[indices[k]] != FLUID
-        first[indptr.shape[0] - 1] = count
+            for k in range(solid[i], row[i + 1] if role[i] == FLUID else solid[i]):
+                found[count] = <int>k
+                count += wanted[other[k]] != 0
+        first[n] = count
     return count

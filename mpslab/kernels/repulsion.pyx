@@ -1,67 +1,76 @@
 """Displacements that keep particles apart: shifting, dynamic stabilisation, collision."""
-import numpy as np
-
 from libc.math cimport sqrt
 
-from mpslab.kernels.pair cimport FLUID, distance, has_pressure, weight, wrap
-
-from mpslab.kernels import shares
+from mpslab.kernels.pair cimport FLUID, distance, has_pressure, wrap
 
 
-def shifting(const double[:, ::1] position, const signed char[::1] role,
-             const unsigned char[::1] surface, const int[::1] indptr, const int[::1] indices,
-             stencil, const double[:, ::1] c, double factor, double longest,
-             double[:, ::1] out):
-    """dr_i = -factor sum_j (C_i + C_j)/2 r_ij w/r^2, at most `longest` [m].
+def shift(const double[:, :, ::1] second, const double[:, :, ::1] c, const double[:, ::1] lean,
+          const unsigned char[::1] moves, double factor, double longest, double[:, ::1] out):
+    """dr_i = -factor (C_i m_i + S_i)/2 of the particles that may move, at most `longest` [m].
 
-    Zero for free-surface particles and for those that have one as a neighbour.
+    This is -factor sum_j (C_i + D_j)/2 r_ij w/r^2: m_i is the sum without matrices, S_i that with
+    those of the neighbours (`mpslab.kernels.divergence.adjoint`).
 
-    c : (n, 6) matrices C of the fluid particles; solids take that of their neighbour
+    second : (n, 3, 4), see mpslab.kernels.measure; c : (n, 3, 4); lean : (n, 4) S_i
     factor : [m2]
     """
-    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
-    cdef const double[::1] water = shares.of_water(role), free = np.asarray(surface, float)
-    cdef double dx, dy, dz, r, w, a, b, xx, yy, zz, xy, xz, yz, sx, sy, sz, near_surface, length
-    cdef Py_ssize_t i, k, j
+    cdef double[3] s
+    cdef double length, scale
+    cdef Py_ssize_t i, a
     with nogil:
-        for i in range(indptr.shape[0] - 1):
+        for i in range(moves.shape[0]):
             out[i, 0] = out[i, 1] = out[i, 2] = 0.0
-            if role[i] != FLUID or surface[i]:
+            if not moves[i]:
                 continue
-            sx = sy = sz = 0.0
-            near_surface = 0.0
-            for k in range(indptr[i], indptr[i + 1]):
-                j = indices[k]
-                dx = position[j, 0] - position[i, 0]
-                dy = wrap(position[j, 1] - position[i, 1], width)
-                dz = position[j, 2] - position[i, 2]
-                r = distance(dx, dy, dz, floor)
-                w = 0.5 * weight(r, radius) / (r * r)
-                near_surface += free[j] * (r < radius)
-                a = water[j]
-                b = 2.0 - a
-                xx = a * c[j, 0] + b * c[i, 0]
-                yy = a * c[j, 1] + b * c[i, 1]
-                zz = a * c[j, 2] + b * c[i, 2]
-                xy = a * c[j, 3] + b * c[i, 3]
-                xz = a * c[j, 4] + b * c[i, 4]
-                yz = a * c[j, 5] + b * c[i, 5]
-                sx += w * (xx * dx + xy * dy + xz * dz)
-                sy += w * (xy * dx + yy * dy + yz * dz)
-                sz += w * (xz * dx + yz * dy + zz * dz)
-            if near_surface > 0.0:
-                continue
-            length = factor * sqrt(sx * sx + sy * sy + sz * sz)
-            w = -factor * (longest / length if length > longest else 1.0)
-            out[i, 0] = w * sx
-            out[i, 1] = w * sy
-            out[i, 2] = w * sz
+            for a in range(3):
+                s[a] = 0.5 * (c[i, a, 0] * second[i, 0, 3] + c[i, a, 1] * second[i, 1, 3]
+                              + c[i, a, 2] * second[i, 2, 3] + lean[i, a])
+            length = factor * sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2])
+            scale = -factor * (longest / length if length > longest else 1.0)
+            for a in range(3):
+                out[i, a] = scale * s[a]
 
 
-def overlap(const double[:, ::1] position, const double[:, ::1] before,
-            const double[:, ::1] velocity, const signed char[::1] role, const int[::1] indptr,
-            const int[::1] indices, stencil, double closest, double dt, double[:, ::1] move,
-            double[:, ::1] change):
+def moved(const double[:, ::1] position, const double[:, ::1] before, double width,
+          double[::1] out):
+    """How far each particle has gone [m]; `before` is (n, 4)."""
+    cdef double dx, dy, dz
+    cdef Py_ssize_t i
+    with nogil:
+        for i in range(out.shape[0]):
+            dx = position[i, 0] - before[i, 0]
+            dy = wrap(position[i, 1] - before[i, 1], width)
+            dz = position[i, 2] - before[i, 2]
+            out[i] = sqrt(dx * dx + dy * dy + dz * dz)
+
+
+def close(const int[::1] row, const int[::1] other, const float[::1] inverse, double distance,
+          const double[::1] path, int[::1] close_row, int[::1] close_other):
+    """Rows of the pairs that are closer than a distance [m] if each comes nearer by its path.
+
+    path : (n,) [m]
+    close_row : (n + 1,) out, close_other : (m + 1,) out
+
+    Returns how many there are.  Distances are taken a millionth longer: inverse is rounded.
+    """
+    cdef double reach
+    cdef Py_ssize_t i, k
+    cdef int found = 0
+    with nogil:
+        for i in range(close_row.shape[0] - 1):
+            close_row[i] = found
+            reach = distance + path[i]
+            for k in range(row[i], row[i + 1]):
+                close_other[found] = other[k]
+                found += inverse[k] * (reach + path[other[k]]) >= 1.0 - 1e-6
+        close_row[close_row.shape[0] - 1] = found
+    return found
+
+
+def overlap(const int[::1] indptr, const int[::1] indices, const double[:, ::1] position,
+            const double[:, ::1] before, const double[:, ::1] velocity,
+            const signed char[::1] role, stencil,
+            double closest, double dt, double[:, ::1] move, double[:, ::1] change):
     """Displacement that takes pairs closer than `closest` apart (after Tsuruta et al. 2013) [m],
     and the change of velocity that goes with it [m/s].
 
@@ -69,6 +78,9 @@ def overlap(const double[:, ::1] position, const double[:, ::1] before,
     before the pressure moved it; s = 1/2 between fluid particles, 1 against a wall.  The velocity
     changes by dr_i/dt, but by no more than takes the pair's approach away: parting those that
     something else has pushed together must not make energy.
+
+    indptr, indices : of pairs that may be so close (`close`)
+    before : (n, 4) [m], the fourth number 0
     """
     cdef double width = stencil.width, floor = stencil.floor
     cdef double dx, dy, dz, ex, ey, ez, r, rr, par, along, push, approach, share
@@ -120,13 +132,15 @@ def overlap(const double[:, ::1] position, const double[:, ::1] before,
             change[i, 2] = uz
 
 
-def collision(const double[:, ::1] position, const double[:, ::1] velocity,
-              const signed char[::1] role, const int[::1] indptr, const int[::1] indices,
-              stencil, double closest, double restitution, double[:, ::1] out):
+def collision(const int[::1] indptr, const int[::1] indices, const double[:, ::1] position,
+              const double[:, ::1] velocity, const signed char[::1] role, stencil,
+              double closest, double restitution, double[:, ::1] out):
     """Change of velocity where approaching pairs are closer than `closest` [m/s].
 
     du_i = -(1 + restitution) s (u_i - u_j).e e, with s = 1/2 between equal particles and 1
     against a wall (Shibata, Murotani & Koshizuka 2014).
+
+    indptr, indices : of pairs that may be so close (`close`)
     """
     cdef double width = stencil.width, floor = stencil.floor
     cdef double dx, dy, dz, r, approach, sx, sy, sz

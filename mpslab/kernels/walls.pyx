@@ -1,38 +1,35 @@
-"""Pressure of walls: that of the water in front of them, or of their own first layer."""
-from libc.math cimport INFINITY
+"""Pressure of walls: that of the water in front of them, or of their own first layer.
 
-from mpslab.kernels.pair cimport FACE, FILLER, FLUID, distance, weight, wrap
-from mpslab.kernels.poisson cimport coefficient
+row, solid, other, offset, inverse : pairs, see mpslab.kernels.measure
+pull : (n, 3) f = g - a_wall, so that p_j = p_i + rho f_j . r_ij across a wall [m/s2]
+"""
+from mpslab.kernels.pair cimport FACE, FILLER, FLUID, coefficient, weight
 
 
-def flux(const double[:, ::1] position, const signed char[::1] role, const int[::1] indptr,
-         const int[::1] indices, stencil, pair_terms, const double[:, ::1] pull,
-         double[::1] out):
-    """sum over the solid neighbours of L(r_ij) f_j . r_ij: the Laplacian's share of walls [1/s2].
+cdef inline double dot(const double* f, const float* r) noexcept nogil:
+    return f[0] * r[0] + f[1] * r[1] + f[2] * r[2]
 
-    pull : (n, 3) f = g - a_wall, so that p_j = p_i + rho f_j . r_ij across a wall [m/s2]
-    """
-    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
-    cdef double one = pair_terms[0], inverse = pair_terms[1], cubic = pair_terms[2]
-    cdef double dx, dy, dz, total
-    cdef Py_ssize_t i, k, j
+
+def flux(const int[::1] row, const int[::1] solid, const int[::1] other,
+         const float[:, ::1] offset, const float[::1] inverse, stencil, pair_terms,
+         const double[:, ::1] pull, double[::1] out):
+    """sum over the solid neighbours of L(r_ij) f_j . r_ij: the Laplacian's share of walls [1/s2]."""
+    cdef double radius = stencil.radius
+    cdef double one = pair_terms[0], first = pair_terms[1], third = pair_terms[2]
+    cdef double total
+    cdef Py_ssize_t i, k
     with nogil:
-        for i in range(indptr.shape[0] - 1):
+        for i in range(solid.shape[0]):
             total = 0.0
-            for k in range(indptr[i], indptr[i + 1]):
-                j = indices[k]
-                if role[j] == FLUID:
-                    continue
-                dx = position[j, 0] - position[i, 0]
-                dy = wrap(position[j, 1] - position[i, 1], width)
-                dz = position[j, 2] - position[i, 2]
-                total += (coefficient(distance(dx, dy, dz, floor), radius, one, inverse, cubic)
-                          * (pull[j, 0] * dx + pull[j, 1] * dy + pull[j, 2] * dz))
+            for k in range(solid[i], row[i + 1]):
+                total += (coefficient(inverse[k], radius, one, first, third)
+                          * dot(&pull[other[k], 0], &offset[k, 0]))
             out[i] = total
 
 
-def extrapolate(const double[:, ::1] position, const signed char[::1] role,
-                const int[::1] indptr, const int[::1] indices, stencil, double density,
+def extrapolate(const int[::1] row, const int[::1] solid, const int[::1] other,
+                const float[:, ::1] offset, const float[::1] inverse,
+                const signed char[::1] role, stencil, double density,
                 const double[:, ::1] pull, bint clip, double[::1] pressure, double[::1] total):
     """p_w = sum_f w (p_f + rho f_w . r_fw) / sum_f w over the water f near a solid w [Pa].
 
@@ -41,50 +38,35 @@ def extrapolate(const double[:, ::1] position, const signed char[::1] role,
     clip : whether a negative pressure becomes zero
     total : (n,) scratch
     """
-    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
-    cdef double dx, dy, dz, w
+    cdef double radius = stencil.radius
+    cdef double w
     cdef Py_ssize_t i, k, j
     with nogil:
-        for i in range(indptr.shape[0] - 1):
+        for i in range(solid.shape[0]):
             total[i] = 0.0
             if role[i] != FLUID:
                 pressure[i] = 0.0
-        for i in range(indptr.shape[0] - 1):
-            for k in range(indptr[i], indptr[i + 1]):
-                j = indices[k]
-                if role[j] == FLUID:
-                    continue
-                dx = position[j, 0] - position[i, 0]
-                dy = wrap(position[j, 1] - position[i, 1], width)
-                dz = position[j, 2] - position[i, 2]
-                w = weight(distance(dx, dy, dz, floor), radius)
+        for i in range(solid.shape[0]):
+            for k in range(solid[i], row[i + 1]):
+                j = other[k]
+                w = weight(inverse[k], radius)
                 total[j] += w
-                pressure[j] += w * (pressure[i] + density * (
-                    pull[j, 0] * dx + pull[j, 1] * dy + pull[j, 2] * dz))
-        for i in range(indptr.shape[0] - 1):
+                pressure[j] += w * (pressure[i] + density * dot(&pull[j, 0], &offset[k, 0]))
+        for i in range(solid.shape[0]):
             if total[i] > 0.0:
                 pressure[i] = 0.0 if clip and pressure[i] < 0.0 else pressure[i] / total[i]
 
 
-def nearest_face(const double[:, ::1] position, const signed char[::1] role,
-                 const int[::1] indptr, const int[::1] indices, double width, int[::1] out):
+def nearest_face(const int[::1] row, const int[::1] solid, const int[::1] other,
+                 const float[::1] inverse, const signed char[::1] role, int[::1] out):
     """Nearest face among the neighbours of each filler, the first of several; else -1, (n,)."""
-    cdef double dx, dy, dz, square, least
-    cdef Py_ssize_t i, k, j
+    cdef float most
+    cdef Py_ssize_t i, k
     with nogil:
-        for i in range(indptr.shape[0] - 1):
+        for i in range(solid.shape[0]):
             out[i] = -1
-            if role[i] != FILLER:
-                continue
-            least = INFINITY
-            for k in range(indptr[i], indptr[i + 1]):
-                j = indices[k]
-                if role[j] != FACE:
-                    continue
-                dx = position[j, 0] - position[i, 0]
-                dy = wrap(position[j, 1] - position[i, 1], width)
-                dz = position[j, 2] - position[i, 2]
-                square = dx * dx + dy * dy + dz * dz
-                if square < least:
-                    least = square
-                    out[i] = <int>j
+            most = 0
+            for k in range(solid[i], row[i + 1] if role[i] == FILLER else solid[i]):
+                if role[other[k]] == FACE and inverse[k] > most:
+                    most = inverse[k]
+                    out[i] = other[k]

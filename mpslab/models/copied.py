@@ -7,28 +7,23 @@ gradient that sees farther than the first layer is held up by all the layers tha
 import numpy as np
 
 from mpslab.kernels import walls as kernels
-from mpslab.particles import FACE
 
 
-def fill(particles, neighbors, width):
-    """Give each filler the pressure of the nearest face, in place; roles under which they act.
+def fill(near):
+    """Give each filler the pressure of the nearest face, in place; which particles act with one.
 
     Parameters
     ----------
-    particles : ParticleSet
-    neighbors : NeighborList
+    near : Neighbourhood
         With rows for all particles.
-    width : float [m]
-        Period across the tank, 0 when not periodic.
 
     Returns
     -------
-    role : (n,) int8
-        FACE for the fillers with a face in reach of the list; the others stay FILLER, at p = 0.
+    loaded : (n,) uint8
+        0 for the fillers without a face in reach, which stay at p = 0.
     """
-    role, face = particles.role.copy(), np.empty(len(particles), np.int32)
-    kernels.nearest_face(particles.position, role, neighbors.indptr, neighbors.indices, width, face)
+    particles, face = near.particles, np.empty(len(near.particles), np.int32)
+    kernels.nearest_face(near.row, near.solid, near.other, near.inverse, particles.role, face)
     copies = face >= 0
     particles.pressure[copies] = particles.pressure[face[copies]]
-    role[copies] = FACE
-    return role
+    return (particles.carries_pressure | copies).astype(np.uint8)

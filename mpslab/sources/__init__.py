@@ -2,11 +2,14 @@
 
 The equation is  -(1/rho) <lap p>_i = b_i  and each module has one function::
 
-    source(position, velocity, role, number_density, indptr, indices, stencil, correction, dt,
-           rate, scheme, out)
+    source(near, velocity, number_density, dt, rate, scheme)
 
-with the positions (n, 3) [m] where the pressure acts, the predicted velocities (n, 3) [m/s], the
-roles (n,) int8, the number density there, the correction matrices (n, 6) of mpslab.correction (None
-without ``NEEDS_CORRECTION``), the rate s [1/s] at which the mixed sources take a density error back
-(`mpslab.step.density_rate`), and  out : (n,) float64 [1/s2].
+which returns b, (n,) float64 [1/s2].
+
+    near : mpslab.core.neighbourhood.Neighbourhood where the pressure acts
+    velocity : (n, 3) float64 [m/s], the predicted velocities
+    number_density : (n,) float64 [-]
+    rate : float [1/s], at which the mixed sources take a density error back
+        (`mpslab.step.density_rate`)
+    scheme : the table of the case
 """

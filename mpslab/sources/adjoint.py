@@ -1,14 +1,7 @@
 """Mixed source with the divergence that is adjoint to the conservative corrected gradient."""
 
-from mpslab.kernels.divergence import adjoint_divergence
 
-NEEDS_CORRECTION = True
-
-
-def source(
-    position, velocity, role, number_density, indptr, indices, stencil, correction, dt, rate,
-    scheme, out,
-):
+def source(near, velocity, number_density, dt, rate, scheme):
     """b_i = -<div u*>_i/dt + s (n_i - n_r)/(n_r dt) [1/s2].
 
     <div u>_i = (Ds/n0) sum_j u_ij . C_j r_ij w/r^2.  The pressure forces of the gradient
@@ -16,6 +9,5 @@ def source(
     neither give energy to the water nor take any.  n_r is the number density of relaxed water
     (`Stencil.relaxed`).
     """
-    adjoint_divergence(position, velocity, role, indptr, indices, stencil, correction, out)
-    out /= -dt
-    out += (rate / dt) * (number_density / stencil.relaxed - 1.0)
+    divergence = near.stencil.dim / near.stencil.n0 * near.adjoint_divergence(velocity)
+    return (rate * (number_density / near.stencil.relaxed - 1.0) - divergence) / dt

@@ -1,12 +1,12 @@
 """Higher-order source (HS): the rate of change of the number density."""
 
+import numpy as np
+
 from mpslab.kernels.divergence import density_rate
 
 
-def source(
-    position, velocity, role, number_density, indptr, indices, stencil, correction, dt, rate,
-    scheme, out,
-):
+def source(near, velocity, number_density, dt, rate, scheme):
     """b_i = (Dn/Dt)*_i/(n0 dt) (Khayyer & Gotoh 2009) [1/s2]."""
-    density_rate(position, velocity, indptr, indices, stencil, out)
-    out /= stencil.n0 * dt
+    out = np.empty(len(velocity))
+    density_rate(near.row, near.other, near.offset, near.inverse, near.stencil, velocity, out)
+    return out / (near.stencil.n0 * dt)

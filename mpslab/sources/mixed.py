@@ -1,13 +1,12 @@
 """Mixed source: the divergence of the velocity and a share of the density deviation."""
 
-from mpslab.kernels.divergence import divergence
+import numpy as np
+
+from mpslab.kernels import divergence
 
 
-def source(
-    position, velocity, role, number_density, indptr, indices, stencil, correction, dt, rate,
-    scheme, out,
-):
+def source(near, velocity, number_density, dt, rate, scheme):
     """b_i = -<div u*>_i/dt + s (n_i - n0)/(n0 dt) (Tanaka & Masunaga 2010) [1/s2]."""
-    divergence(position, velocity, indptr, indices, stencil, out)
-    out /= -dt
-    out += (rate / dt) * (number_density / stencil.n0 - 1.0)
+    out = np.empty(len(velocity))
+    divergence.divergence(near.row, near.other, near.offset, near.stencil, velocity, out)
+    return (rate * (number_density / near.stencil.n0 - 1.0) - out) / dt

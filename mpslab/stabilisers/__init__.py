@@ -2,14 +2,14 @@
 
 Each module has one function::
 
-    stabilise(particles, before, neighbors, stencil, correction, dt, pace, scheme)
+    stabilise(near, dt, pace, scheme)
 
-which changes ``particles.position`` and ``particles.velocity`` in place, and a word ``STAGE``:
-"predicted" (before the pressure is solved) or "corrected" (at the end of the step, when
-``before`` holds the predicted positions, (n, 3) [m]).  ``correction`` holds the matrices of
-mpslab.correction, (n, 6), None without ``NEEDS_CORRECTION``.  What a model does little by
-little, it does at a rate, whatever the step ``dt`` [s]: its share in the scheme is that of ``pace``
-[s] (`mpslab.timestep.pace`).  What parts pairs that have come too near does so at once.
+which changes position and velocity of ``near.particles`` in place, and a word ``STAGE``:
+"predicted" (before the pressure is solved, when the pairs lie as they were measured) or "corrected"
+(at the end of the step, when the particles have moved on from ``near.position``).  What a model
+does little by little, it does at a rate, whatever the step ``dt`` [s]: its share in the scheme is
+that of ``pace`` [s] (`mpslab.timestep.pace`).  What parts pairs that have come too near does so at
+once.
 
 For the force on a solid it is called once more, with the pairs of the water with this solid alone:
 what it does to a velocity has to be a sum over pairs.  A module whose ``stabilise`` is several such

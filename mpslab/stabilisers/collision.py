@@ -8,19 +8,19 @@ STAGE = "predicted"
 DISTANCE = {2: 0.5, 3: 0.8}  # [spacings] where the case has none
 
 
-def stabilise(particles, before, neighbors, stencil, correction, dt, pace, scheme):
+def stabilise(near, dt, pace, scheme):
     """Let pairs below ``collision_distance`` bounce (Shibata, Murotani & Koshizuka 2014).
 
     Where the water is so thin that it has no pressure, this alone holds it above the bed.  Half-way
     between two particles of a wall, or in 3-D in the middle of four, it is 0.5 and 1/sqrt(2)
     spacings from each: with less, it slips through.
     """
-    distance = scheme.collision_distance or DISTANCE[stencil.dim]
+    particles, stencil = near.particles, near.stencil
+    closest = (scheme.collision_distance or DISTANCE[stencil.dim]) * stencil.spacing
     change = np.empty_like(particles.velocity)
     repulsion.collision(
-        particles.position, particles.velocity, particles.role, neighbors.indptr,
-        neighbors.indices, stencil, distance * stencil.spacing,
-        scheme.restitution, change,
+        *near.close(closest), particles.position, particles.velocity, particles.role, stencil,
+        closest, scheme.restitution, change,
     )  # fmt: skip
     particles.velocity += change
     particles.position += change * dt

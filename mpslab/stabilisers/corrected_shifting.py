@@ -1,28 +1,18 @@
 """Particle shifting with the matrices of the corrected gradient."""
 
-import numpy as np
-
-from mpslab.kernels import repulsion
-from mpslab.stabilisers.shifting import LONGEST, share
+from mpslab.stabilisers.shifting import share, shift
 
 STAGE = "corrected"
-NEEDS_CORRECTION = True
 
 
-def stabilise(particles, before, neighbors, stencil, correction, dt, pace, scheme):
+def stabilise(near, dt, pace, scheme):
     """dr_i = -(A/R) sum_j (C_i + C_j)/2 r_ij w/r^2 inside the water [m]; velocities stay.
 
     The sum is what the gradient "corrected" makes of a constant pressure: particles that have
     moved until it vanishes feel no force from the pressure itself, only from its differences.
     With R of the lattice (`Stencil.restoring`) the strength A is the share of a displacement that
     the step takes back (a little less, for the matrices change, too); near 1/2 neighbours
-    overshoot together.  The matrices are those of the start of the step.
+    overshoot together.  The sum is that of where the pressure acted.
     """
-    move = np.empty_like(particles.position)
-    factor = share(scheme, dt, pace) / stencil.restoring
-    repulsion.shifting(
-        particles.position, particles.role, particles.surface, neighbors.indptr,
-        neighbors.indices, stencil, correction, factor,
-        LONGEST * stencil.spacing * dt / pace, move,
-    )  # fmt: skip
-    particles.position += move
+    factor = share(scheme, dt, pace) / near.stencil.restoring
+    shift(near, near.correction, near.lean, factor, dt / pace)

@@ -8,20 +8,21 @@ STAGE = "corrected"
 PASSES = 2  # the second parts those whom the first pushed together; a ghost is right after one
 
 
-def stabilise(particles, before, neighbors, stencil, correction, dt, pace, scheme):
+def stabilise(near, dt, pace, scheme):
     """Remove the overlap of pairs below ``ds_distance`` (after Tsuruta et al. 2013), and the
     approach that led to it.
     """
     for _ in range(PASSES):
-        one_pass(particles, before, neighbors, stencil, correction, dt, pace, scheme)
+        one_pass(near, dt, pace, scheme)
 
 
-def one_pass(particles, before, neighbors, stencil, correction, dt, pace, scheme):
+def one_pass(near, dt, pace, scheme):
     """Part each pair once."""
+    particles, closest = near.particles, scheme.ds_distance * near.stencil.spacing
     move, change = np.empty_like(particles.position), np.empty_like(particles.velocity)
     repulsion.overlap(
-        particles.position, before, particles.velocity, particles.role, neighbors.indptr,
-        neighbors.indices, stencil, scheme.ds_distance * stencil.spacing, dt, move, change,
+        *near.close(closest), particles.position, near.position, particles.velocity,
+        particles.role, near.stencil, closest, dt, move, change,
     )  # fmt: skip
     particles.position += move
     particles.velocity += change

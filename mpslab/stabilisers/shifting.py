@@ -2,25 +2,46 @@
 
 import numpy as np
 
-from mpslab.correction import identity
-from mpslab.kernels import repulsion
+from mpslab.kernels import density, repulsion
 
 STAGE = "corrected"
 LONGEST = 0.05  # of a particle spacing, in one pace
 
 
-def stabilise(particles, before, neighbors, stencil, correction, dt, pace, scheme):
+def stabilise(near, dt, pace, scheme):
     """dr_i = -(A d0^2/n0) sum_j r_ij w/r^2 inside the water (after Lind et al. 2012) [m].
 
     A is the `share` of the step; velocities stay.
     """
-    move = np.empty_like(particles.position)
-    factor = share(scheme, dt, pace) * stencil.spacing**2 / stencil.n0
-    repulsion.shifting(
-        particles.position, particles.role, particles.surface, neighbors.indptr,
-        neighbors.indices, stencil, identity(len(particles)), factor,
-        LONGEST * stencil.spacing * dt / pace, move,
-    )  # fmt: skip
+    matrices, lean = np.zeros_like(near.second), np.zeros((len(near.particles), 4))
+    matrices[:, range(3), range(3)] = 1.0
+    lean[:, :3] = near.second[:, :, 3]
+    factor = share(scheme, dt, pace) * near.stencil.spacing**2 / near.stencil.n0
+    shift(near, matrices, lean, factor, dt / pace)
+
+
+def shift(near, matrices, lean, factor, paces):
+    """Move the water by -factor (C_i m_i + S_i)/2, but neither the surface nor what is beside it.
+
+    The sums are those of where the pressure acted.
+
+    Parameters
+    ----------
+    near : Neighbourhood
+    matrices : (n, 3, 4) float64
+        C_i.
+    lean : (n, 4) float64 [1/m]
+        S_i, the sum with the matrices of the neighbours.
+    factor : float [m2]
+    paces : float
+        How long the step is, in paces.
+    """
+    particles = near.particles
+    held, move = np.empty(len(particles), np.uint8), np.empty_like(particles.position)
+    density.beside(near.row, near.other, near.offset, particles.surface, held)
+    moves = (particles.fluid & (held == 0)).astype(np.uint8)
+    repulsion.shift(near.second, matrices, lean, moves, factor,
+                    LONGEST * near.stencil.spacing * paces, move)  # fmt: skip
     particles.position += move
 
 

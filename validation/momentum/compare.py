@@ -3,7 +3,8 @@
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from mpslab import correction, plugins
+from mpslab import plugins
+from mpslab.core.neighbourhood import Neighbourhood
 from mpslab.neighbors import NeighborList
 from mpslab.particles import FLUID, make_particles
 from mpslab.stencil import make_stencil
@@ -59,12 +60,9 @@ def _blob(name, random):
     pressure = random.uniform(0.0, 1.0, len(x))
     stencil, found = make_stencil(2, 1.0, RADIUS), NeighborList()
     found.build(particles.position, RADIUS, 0.0, particles.fluid)
-    matrices = correction.matrices(particles, found, stencil)
-    force = np.zeros((len(x), 3))
-    plugins.load("gradients", name).gradient(
-        particles.position, pressure, particles.role, found.indptr, found.indices, stencil,
-        matrices, force,
-    )  # fmt: skip
+    force, particles.pressure[:] = np.zeros((len(x), 3)), pressure
+    near = Neighbourhood(stencil).measure(particles, found)
+    plugins.load("gradients", name).gradient(near, force)
     arm = x - x.mean(axis=0)
     moment = np.cross(arm, force)[:, 1]
     sizes = np.linalg.norm(force, axis=1)

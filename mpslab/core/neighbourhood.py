@@ -1,0 +1,182 @@
+"""What a model sees: the particles, who is near whom, and the geometry of these pairs."""
+
+from copy import copy
+
+import numpy as np
+
+from mpslab.kernels import divergence, measure, moments, repulsion
+from mpslab.particles import no_particles
+
+# Near the free surface the moment is one-sided and its inverse large: one layer would push the
+# next away.  There C = I, and the pair of the conservative gradient is that of p_i + p_j.
+LEAST_DETERMINANT = 0.6
+LANES = 16  # as in mpslab/kernels/pair.pxd
+SLACK = 0.05  # spacings: so much farther may a particle go before close pairs are looked for again
+
+
+class Neighbourhood:
+    """Particles and their pairs where the pressure acts, measured once a step.
+
+    The offset of a pair is the difference of two places in double precision, rounded to single:
+    r_ji is -r_ij to the last bit.  Sums over pairs are taken in double precision, so that pair
+    forces cancel to its rounding.
+
+    Attributes
+    ----------
+    particles : ParticleSet
+        They may move on; the pairs stay as they were measured.
+    stencil : Stencil
+        Of gradient and number density.
+    loaded : (n,) uint8
+        1 for particles that act with a pressure.
+    row : (n + 1,) int32
+        Row i of the arrays of pairs is ``row[i]:row[i + 1]``.
+    solid : (n,) int32
+        Where the solid neighbours of a row begin: water comes first, each in the list's order.
+    other : (m,) int32
+        The neighbour.
+    offset : (m + LANES, 4) float32
+        r_ij [m] and w/r^2 [1/m2]; what is behind the m pairs means nothing.
+    inverse : (m + LANES,) float32
+        1/r [1/m].
+    position : (n, 4) float64 [m]
+        Where the particles were; the fourth number is 0.
+    first : (n, 4) float64
+        sum_j w r_ij [m] and the number density sum_j w [-].
+    second : (n, 3, 4) float64
+        For each axis a, sum_j (r_ij)_a w/r^2 times (r_ij, 1) [-, 1/m].
+    """
+
+    def __init__(self, stencil):
+        self.stencil = stencil
+        self.particles = no_particles()
+        self.offset, self.inverse = np.empty((0, 4), np.float32), np.empty(0, np.float32)
+        self._behind = np.empty(0, np.int32)
+
+    def measure(self, particles, neighbors, loaded=None):
+        """Take the geometry of the pairs of a list, with the particles where they are.
+
+        The list is taken over: in its rows water is put before solids.
+
+        Parameters
+        ----------
+        particles : ParticleSet
+        neighbors : NeighborList
+        loaded : (n,) bool, optional
+            Those that act with a pressure, unless they are water and the faces of solids.
+        """
+        n, pairs = len(particles), len(neighbors.indices)
+        self.particles, self.row = particles, neighbors.indptr
+        loaded = particles.carries_pressure if loaded is None else loaded
+        self.loaded = loaded.astype(np.uint8)
+        self._make_room(pairs, int(np.diff(self.row).max(initial=0)))
+        self.other, self.solid = neighbors.indices, np.empty(n, np.int32)
+        self.position = padded(particles.position)
+        self.first, self.second = np.empty((n, 4)), np.empty((n, 3, 4))
+        measure.measure(
+            self.position, particles.role, self.row, self.other, self.stencil, self.solid,
+            self._behind, self.offset, self.inverse, self.first, self.second,
+        )  # fmt: skip
+        self._correction = self._lean = self._close = None
+        return self
+
+    def _make_room(self, pairs, longest):
+        """Memory is kept from step to step: new pages cost more than what is written to them."""
+        if len(self.inverse) < pairs + LANES:
+            room = int(1.2 * pairs) + LANES
+            self.offset = np.zeros((room, 4), np.float32)
+            self.inverse = np.zeros(room, np.float32)
+        if len(self._behind) < longest:
+            self._behind = np.empty(2 * longest, np.int32)
+
+    def of(self, particles):
+        """The same pairs of particles that differ in other things than their places."""
+        found = copy(self)
+        found.particles = particles
+        return found
+
+    def only(self, row, pairs):
+        """Some of the pairs of water with solids; what is known of each particle stays.
+
+        Parameters
+        ----------
+        row : (n + 1,) int32
+            Row i of the new arrays of pairs is ``row[i]:row[i + 1]``.
+        pairs : (m,) int
+            Number of each in the present arrays.
+        """
+        found, behind = copy(self), np.zeros(LANES, np.int32)
+        found.row, found.solid, found.other = row, row[:-1].copy(), self.other.take(pairs)
+        pairs = np.append(pairs, behind)
+        found.offset, found.inverse = self.offset.take(pairs, 0), self.inverse.take(pairs)
+        found._lean = found._close = None
+        return found
+
+    @property
+    def number_density(self):
+        """n_i = sum_j w(|r_ij|) over all neighbours (Koshizuka & Oka 1996), (n,) float64."""
+        return self.first[:, 3]
+
+    @property
+    def correction(self):
+        """C_i = [(Ds/n0) sum_j w r_ij (x) r_ij / r^2]^-1 over all neighbours (n, 3, 4) [-].
+
+        Khayyer & Gotoh (2011); three columns, whose fourth numbers mean nothing; the identity where
+        the determinant of the bracket is below 0.6.
+        """
+        if self._correction is None:
+            self._correction = self.inverted(LEAST_DETERMINANT)
+        return self._correction
+
+    def inverted(self, least_determinant, second=None):
+        """As `correction`, of another least determinant, or of other moments (n, 3, 4)."""
+        out = np.empty_like(self.second)
+        second = self.second if second is None else second
+        moments.invert(second, self.stencil, least_determinant, out)
+        return out
+
+    @property
+    def lean(self):
+        """S_i = sum_j D_j r_ij w/r^2, D_j being C_j of water and C_i of solids, (n, 4) [1/m].
+
+        The fourth number means nothing.
+        """
+        if self._lean is None:
+            self.adjoint_divergence(np.zeros_like(self.particles.velocity))
+        return self._lean
+
+    def adjoint_divergence(self, velocity):
+        """sum_j u_ij . D_j r_ij w/r^2 of velocities (n, 3) [m/s], (n,) float64 [1/(m s)].
+
+        Gives `lean` as well, from the same products.
+        """
+        self._lean = np.empty((len(self.particles), 4))
+        divergence.adjoint(self.row, self.solid, self.other, self.offset,
+                           np.ascontiguousarray(velocity), self.correction, self._lean)  # fmt: skip
+        return self._lean[:, 3].copy()
+
+    def close(self, distance):
+        """Rows of the pairs that may be closer than a distance [m] where the particles are now.
+
+        Those that were, or whose particles together have moved on by as much as was missing.
+
+        Returns
+        -------
+        row : (n + 1,) int32
+        other : (m,) int32
+        """
+        moved = np.empty(len(self.particles))
+        repulsion.moved(self.particles.position, self.position, self.stencil.width, moved)
+        if self._close is None or self._path[0] < distance or np.any(moved > self._path[1]):
+            self._path = distance, moved + SLACK * self.stencil.spacing
+            row, other = np.empty_like(self.row), np.empty(len(self.other) + 1, np.int32)
+            found = repulsion.close(self.row, self.other, self.inverse, *self._path, row, other)
+            self._close = row, other[:found]
+        return self._close
+
+
+def padded(vectors):
+    """Vectors with a fourth number, 0: (n, 3) -> (n, 4) float64."""
+    out = np.zeros((len(vectors), 4))
+    out[:, :3] = vectors
+    return out

@@ -1,0 +1,17 @@
+# Four doubles that are worked on together: a vector and one more number (see lanes.h).
+
+cdef extern from "lanes.h" nogil:
+    ctypedef struct four:
+        pass
+
+    four nothing() noexcept
+    four load(const double* row) noexcept
+    four widened(const float* row) noexcept
+    void store(double* row, four v) noexcept
+    void store_rounded(float* row, four v) noexcept
+    double lane(four v, int axis) noexcept
+    four ended(four v, double x) noexcept
+    four minus(four a, four b) noexcept
+    four times(double factor, four v) noexcept
+    four plus(four total, double factor, four v) noexcept
+    four nearest(four v, double width) noexcept

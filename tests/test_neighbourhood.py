@@ -1,0 +1,226 @@
+"""Contract of the passes over pairs: each against its formula, written out in numpy."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from tanks import SINGLE, cloud, near_of, neighbors_of, particles_at
+
+from mpslab import plugins, pressure, walls
+from mpslab.core.neighbourhood import Neighbourhood, padded
+from mpslab.kernels import repulsion, viscosity
+from mpslab.particles import FACE, FILLER, FLUID
+from mpslab.stabilisers.shifting import LONGEST
+from mpslab.stencil import make_stencil
+
+WIDTH = 7.0
+DIMS = [2, 3]
+
+
+def crowd(dim, seed=1):
+    """Shaken block of water, faces and fillers, periodic across in 3-D."""
+    random = np.random.default_rng(seed)
+    position = cloud(dim, 400, seed, jitter=0.25)
+    if dim == 3:
+        position = position[np.abs(position[:, 1]) < 0.5 * WIDTH] + [0.0, 0.5 * WIDTH, 0.0]
+    particles = particles_at(position)
+    particles.role[:] = random.choice([FLUID] * 8 + [FACE, FILLER], len(position))
+    particles.velocity[:] = random.normal(size=position.shape) * [1.0, dim - 2.0, 1.0]
+    particles.pressure[:] = random.uniform(0.0, 100.0, len(position))
+    return particles
+
+
+def setting(dim, reach=2.6, solids=True):
+    """Neighbourhood of a crowd, whose list reaches further than its stencil; and the plain form.
+
+    Without `solids` only water has rows.
+    """
+    particles, width = crowd(dim), WIDTH if dim == 3 else 0.0
+    active = particles.fluid | solids
+    near = near_of(particles, dim, width=width, reach=reach, active=active)
+    return near, plain(particles, dim, width)
+
+
+def plain(particles, dim, width):
+    """All pairs as (n, n) arrays in double precision: r_ij (n, n, 3), r, w, g = w/r^2, C, D."""
+    x, stencil = particles.position, make_stencil(dim, 1.0, 2.1, width)
+    r = x[None] - x[:, None]
+    if width:
+        r[:, :, 1] -= width * np.rint(r[:, :, 1] / width)
+    distance = np.linalg.norm(r, axis=2) + 1e9 * np.eye(len(x))
+    w = np.maximum(stencil.radius / distance - 1.0, 0.0)
+    g = w / distance**2
+    moment = dim / stencil.n0 * np.einsum("ij,ija,ijb->iab", g, r, r)
+    if dim == 2:
+        moment[:, 1, 1] = 1.0
+    good = np.linalg.det(moment) >= 0.6
+    c = np.where(good[:, None, None], np.linalg.inv(moment + ~good[:, None, None] * np.eye(3)),
+                 np.eye(3))  # fmt: skip
+    water = particles.role == FLUID
+    d = np.where(water[None, :, None, None], c[None], c[:, None])
+    return SimpleNamespace(r=r, distance=distance, w=w, g=g, c=c, d=d, water=water)
+
+
+def assert_close(found, expected, of=SINGLE):
+    assert np.abs(found - expected).max() < 10 * of * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("dim", DIMS)
+def test_offsets_are_opposite_to_the_last_bit(dim):
+    near, _ = setting(dim)
+    n, m = len(near.particles), len(near.other)
+    pair = np.repeat(np.arange(n), np.diff(near.row)) * n + near.other
+    back = near.other.astype(int) * n + np.repeat(np.arange(n), np.diff(near.row))
+    there, here = np.argsort(pair), np.argsort(back)
+    np.testing.assert_array_equal(near.offset[:m][there, :3], -near.offset[:m][here, :3])
+    np.testing.assert_array_equal(near.offset[:m][there, 3], near.offset[:m][here, 3])
+    np.testing.assert_array_equal(near.inverse[:m][there], near.inverse[:m][here])
+
+
+@pytest.mark.parametrize("dim", DIMS)
+def test_rows_have_water_before_solids_each_in_the_order_of_the_list(dim):
+    particles = crowd(dim)
+    found = neighbors_of(particles.position, 2.6)
+    before = found.indices.copy()
+    near = Neighbourhood(make_stencil(dim, 1.0, 2.1)).measure(particles, found)
+    for i in range(len(particles)):
+        row = before[found.indptr[i] : found.indptr[i + 1]]
+        water = row[particles.fluid[row]]
+        assert near.other[near.row[i] : near.solid[i]].tolist() == water.tolist()
+        solid = near.other[near.solid[i] : near.row[i + 1]]
+        assert solid.tolist() == row[~particles.fluid[row]].tolist()
+
+
+@pytest.mark.parametrize("dim", DIMS)
+def test_moments_are_the_sums_of_their_formulas(dim):
+    near, pairs = setting(dim)
+    assert_close(near.number_density, pairs.w.sum(axis=1))
+    assert_close(near.first[:, :3], np.einsum("ij,ija->ia", pairs.w, pairs.r))
+    assert_close(near.second[:, :, :3], np.einsum("ij,ija,ijb->iab", pairs.g, pairs.r, pairs.r))
+    assert_close(near.second[:, :, 3], np.einsum("ij,ija->ia", pairs.g, pairs.r))
+    assert_close(near.correction[:, :, :3], pairs.c)
+
+
+@pytest.mark.parametrize("dim", DIMS)
+def test_adjoint_divergence_and_lean_are_the_sums_of_their_formulas(dim):
+    near, pairs = setting(dim)
+    u = near.particles.velocity
+    turned = np.einsum("ij,ijab,ijb->ija", pairs.g, pairs.d, pairs.r)
+    divergence = np.einsum("ija,ija->i", u[None] - u[:, None], turned)
+    assert_close(near.lean[:, :3], turned.sum(axis=1))  # on its own, before it comes for nothing
+    assert_close(near.adjoint_divergence(u), divergence)
+    assert_close(near.lean[:, :3], turned.sum(axis=1))
+
+
+@pytest.mark.parametrize("walls_act", [False, True])
+@pytest.mark.parametrize("dim", DIMS)
+def test_corrected_gradient_is_the_sum_of_its_formula(dim, walls_act):
+    near, pairs = setting(dim)
+    if walls_act:
+        near.loaded[:] = 1
+    p = near.particles.pressure
+    both = p[:, None, None, None] * pairs.d + p[None, :, None, None] * pairs.c[:, None]
+    g = pairs.g * near.loaded
+    expected = np.einsum("ij,ijab,ijb->ia", g, both, pairs.r) * dim / near.stencil.n0
+    expected[~pairs.water] = 0.0
+    out = np.empty_like(expected)
+    plugins.load("gradients", "corrected").gradient(near, out)
+    assert_close(out, expected)
+
+
+@pytest.mark.parametrize("dim", DIMS)
+def test_corrected_shifting_is_the_sum_of_its_formula(dim):
+    near, pairs = setting(dim)
+    half = 0.5 * (pairs.d + pairs.c[:, None])
+    expected = -0.1 * np.einsum("ij,ijab,ijb->ia", pairs.g, half, pairs.r)
+    expected[~pairs.water] = 0.0
+    length = np.linalg.norm(expected, axis=1, keepdims=True)
+    expected *= LONGEST / np.maximum(length, LONGEST)
+    out, moves = np.empty_like(expected), pairs.water.astype(np.uint8)
+    repulsion.shift(near.second, near.correction, near.lean, moves, 0.1, LONGEST, out)
+    assert_close(out, expected)
+
+
+@pytest.mark.parametrize("slip", [True, False])
+@pytest.mark.parametrize("dim", DIMS)
+def test_viscous_acceleration_is_the_sum_of_its_formula(dim, slip):
+    near, pairs = setting(dim)
+    u, stencil = near.particles.velocity, make_stencil(dim, 1.0, 2.6)
+    w = np.maximum(2.6 / pairs.distance - 1.0, 0.0) * (pairs.water if slip else 1.0)
+    factor = 0.3 * 2.0 * dim / (stencil.lambda0 * stencil.n0)
+    expected = factor * np.einsum("ij,ija->ia", w, u[None] - u[:, None])
+    expected[~pairs.water] = 0.0
+    out = np.zeros_like(u)
+    viscosity.viscous_acceleration(
+        near.row, near.solid, near.other, near.inverse, near.particles.role, stencil, padded(u),
+        0.3, slip, out,
+    )  # fmt: skip
+    assert_close(out, expected)
+
+
+@pytest.mark.parametrize("name", plugins.names("laplacians"))
+@pytest.mark.parametrize("dim", DIMS)
+def test_matrix_and_flux_of_walls_are_the_sums_of_their_formulas(dim, name):
+    near, pairs = setting(dim)
+    stencil, particles = make_stencil(dim, 1.0, 2.6), near.particles
+    one, first, third = plugins.load("laplacians", name).pair_terms(stencil)
+    laplacian = one + first / pairs.distance + third / pairs.distance**3
+    laplacian[pairs.distance >= stencil.radius] = 0.0
+    n = len(particles)
+    system, rows = pressure.assemble(near, stencil, (one, first, third), 2.0, np.zeros(n),
+                                     particles.fluid, np.ones(n))  # fmt: skip
+    expected = -0.5 * laplacian[np.ix_(pairs.water, pairs.water)]
+    found = np.zeros_like(expected)
+    found[np.repeat(np.arange(len(rows)), np.diff(system.row)), system.column] = system.value
+    assert_close(found, expected)
+    assert_close(system.diagonal, 1.0 - expected.sum(axis=1))
+    pull = np.random.default_rng(3).normal(size=(n, 3))
+    flux = np.einsum("ij,ja,ija->i", laplacian * ~pairs.water, pull, pairs.r)
+    assert_close(walls.flux(near, stencil, (one, first, third), pull), flux)
+
+
+@pytest.mark.parametrize("dim", DIMS)
+def test_pressure_of_walls_is_the_mean_of_its_formula(dim):
+    near, pairs = setting(dim, solids=False)
+    p = near.particles.pressure.copy()
+    pull = np.random.default_rng(3).normal(size=(len(p), 3))
+    w = pairs.w[pairs.water][:, ~pairs.water]
+    rise = 5.0 * np.einsum("ja,ija->ij", pull, pairs.r)[pairs.water][:, ~pairs.water]
+    expected = (w * (p[pairs.water][:, None] + rise)).sum(axis=0) / w.sum(axis=0)
+    walls.fill(near, 5.0, pull, clip=False)
+    assert_close(near.particles.pressure[~pairs.water], expected)
+    np.testing.assert_array_equal(near.particles.pressure[pairs.water], p[pairs.water])
+
+
+@pytest.mark.parametrize("dim", DIMS)
+def test_no_pair_that_comes_close_is_missed(dim):
+    """After moves of up to 0.3 spacings, and again after more than the slack of the first look."""
+    near, _ = setting(dim)
+    particles, random, width = near.particles, np.random.default_rng(9), near.stencil.width
+    for most in (0.05, 0.3):
+        particles.position += random.uniform(-most, most, (len(particles), 3)) * [1, dim - 2, 1]
+        row, other = near.close(0.8)
+        found = set(zip(np.repeat(np.arange(len(particles)), np.diff(row)), other, strict=True))
+        apart = plain(particles, dim, width).distance
+        closer = set(zip(*np.nonzero(apart < 0.8), strict=True))
+        assert len(closer) > 10
+        assert closer <= found
+    assert len(found) < len(near.other)
+
+
+@pytest.mark.parametrize("dim", DIMS)
+def test_forces_on_water_and_solids_cancel_to_the_rounding_of_doubles(dim):
+    """A solid's share is -(p_i + p_j) C_i r_ij w/r^2 of each water neighbour i."""
+    near, _ = setting(dim, reach=2.1)
+    near.loaded[:] = 1
+    particles, out = near.particles, np.empty((len(near.particles), 3))
+    particles.pressure += 1e5  # a weight of thousands of layers
+    plugins.load("gradients", "corrected").gradient(near, out)
+    on_solids = np.zeros(3)
+    for i in np.flatnonzero(particles.fluid):
+        k = np.arange(near.solid[i], near.row[i + 1])
+        pull = near.offset[k, :3].astype(float) * near.offset[k, 3:].astype(float)
+        both = particles.pressure[i] + particles.pressure[near.other[k]]
+        on_solids -= near.correction[i, :, :3] @ (both @ pull) * dim / near.stencil.n0
+    assert np.abs(on_solids).max() > 0.0
+    assert np.abs(out.sum(axis=0) + on_solids).max() < 1e-14 * np.abs(out).sum()
