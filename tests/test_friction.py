@@ -37,7 +37,8 @@ def acceleration(position, velocity, dim, nu=0.0, slip=True, role=FLUID):
     particles.velocity[:] = velocity
     near = near_of(particles, dim)
     scheme = Scheme(smagorinsky=CONSTANT, wall_slip=slip)
-    return friction.acceleration(near, near.stencil, Fluid(viscosity=nu), scheme, lambda _: None)
+    eddy = friction.eddies(near, scheme, lambda _: None)
+    return friction.acceleration(near, near.stencil, eddy, Fluid(viscosity=nu), scheme)
 
 
 @pytest.mark.parametrize("dim", [2, 3])

@@ -69,8 +69,8 @@ def close(const int[::1] row, const int[::1] other, const float[::1] inverse, do
 
 def overlap(const int[::1] indptr, const int[::1] indices, const double[:, ::1] position,
             const double[:, ::1] before, const double[:, ::1] velocity,
-            const signed char[::1] role, stencil,
-            double closest, double dt, double[:, ::1] move, double[:, ::1] change):
+            const signed char[::1] role, stencil, double closest, double dt,
+            double[:, ::1] move, double[:, ::1] change):
     """Displacement that takes pairs closer than `closest` apart (after Tsuruta et al. 2013) [m],
     and the change of velocity that goes with it [m/s].
 
