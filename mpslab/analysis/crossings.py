@@ -3,14 +3,14 @@
 import numpy as np
 
 WAVE = np.dtype([(name, float) for name in ("time", "period", "height", "crest", "trough")])
-SMALLEST = 0.02  # times 4 standard deviations: a crest or trough that is smaller makes no wave
+RIPPLE = 0.02  # times 4 standard deviations
 
 
-def waves(time, elevation, crossing="down"):
+def waves(time, elevation, crossing="down", ripple=RIPPLE):
     """The waves of a record.
 
     A wave goes from one crossing of the mean level to the next in the same direction. A ripple that
-    does not pass the level by 2 % of the significant height on both sides makes no crossing.
+    does not go beyond a small distance of the level on both sides makes no crossing.
 
     Parameters
     ----------
@@ -18,6 +18,8 @@ def waves(time, elevation, crossing="down"):
         The elevation above its mean.
     crossing : str
         "down": a wave is a trough and the crest after it; "up": a crest and the trough after it.
+    ripple : float
+        That distance, over 4 standard deviations (the significant height).
 
     Returns
     -------
@@ -28,7 +30,7 @@ def waves(time, elevation, crossing="down"):
     if crossing not in ("down", "up"):
         raise ValueError(f"crossing = {crossing!r}: must be 'down' or 'up'")
     signal = elevation if crossing == "down" else -elevation
-    at = _downward(signal, SMALLEST * 4.0 * np.std(elevation))
+    at = _downward(signal, ripple * 4.0 * np.std(elevation))
     moments = time[at] + (time[at + 1] - time[at]) * signal[at] / (signal[at] - signal[at + 1])
     found = np.zeros(max(len(at) - 1, 0), WAVE)
     for wave, first, last in zip(found, at, at[1:], strict=False):

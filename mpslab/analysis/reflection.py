@@ -19,7 +19,9 @@ from mpslab.waves import wave_number
 
 # Of two gauges 0.05 and 0.45 wavelengths apart, Goda's limits: sin^2(0.1 pi).
 LEAST_SOUND = 0.0955
-TAPER = 0.1  # share of a record at either end over which it fades in and out
+# Share of a record at either end over which it fades in and out. Without, what leaks from the peak
+# into other frequencies looks like reflection: Kr = 0.05 of none, in 60 to 100 waves; so, 0.02.
+TAPER = 0.05
 PRIMARY = (0.5, 1.5)  # times the peak frequency: where bound waves are few
 WEIGHTS = ("equal", "spacing")
 
@@ -255,7 +257,7 @@ def _band_means(band, values, sound, count):
 
 
 def _taper(count):
-    """Weights (n,) that rise and fall over a tenth of the record as half a cosine."""
+    """Weights (n,) that rise and fall at the ends of the record as half a cosine."""
     along = (np.arange(count) + 0.5) / count
     end = np.minimum(np.minimum(along, 1.0 - along) / TAPER, 1.0)
     return 0.5 * (1.0 - np.cos(np.pi * end))

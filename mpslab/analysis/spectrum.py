@@ -127,7 +127,9 @@ def parameters(spectrum, low, high, duration):
     dict of str to float
         "Hm0" = 4 sqrt(m0) [m]. "Hm0 scatter", its standard error over that: 0.5 sqrt(integral of
         S^2 df / duration) / m0, of one such record of a Gaussian sea. "Hm0 slow" [m], of what lies
-        below the band. "Tp" [s], 1 over the mean frequency weighted with S^4 (Young 1995).
+        below the band. "Tp" [s], 1 over the mean frequency weighted with S^4 (Young 1995): it
+        scatters less than the highest point, and is shorter by 1 % for JONSWAP (gamma = 3.3) and 5
+        % for Pierson-Moskowitz.
         "Tm-1,0" = m-1 / m0, "Tm01" = m0 / m1 and "Tm02" = sqrt(m0 / m2) [s].
     """
     m = {order: moment(spectrum, order, low, high) for order in (-1, 0, 1, 2)}
