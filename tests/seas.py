@@ -47,7 +47,8 @@ def write_run(folder, time, elevation, x, depth, changes=None, names=None):
     gauges = [{"name": name, "x": float(place)} for name, place in zip(names, x, strict=True)]
     tables = {
         "tank.length": 1.1 * float(max(x)) + 5.0, "tank.depth": depth, "gauge": gauges,
-        "particles.spacing": depth / 20.0, "time.end": float(time[-1]) if len(time) else 1.0, **(changes or {}),
+        "particles.spacing": depth / 20.0, "time.end": float(time[-1]) if len(time) else 1.0,
+        **(changes or {}),
     }  # fmt: skip
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "case.toml").write_text(dumps(make_case(tables)))

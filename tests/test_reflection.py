@@ -107,8 +107,8 @@ def test_a_record_is_separated_as_by_another_program():
 @pytest.mark.parametrize("gauges", [3, 5])
 @pytest.mark.parametrize("kr", [0.0, 0.1, 0.5, 0.95])
 def test_sea_with_noise_is_separated(gauges, kr):
-    """100 waves, noise of 5 % of the height. The height within 3 %; Kr within 0.01, the floor, and 5
-    %: the taper leaves other waves out of the incident than out of the reflected sea.
+    """100 waves, noise of 5 % of the height. The height within 3 %; Kr within 0.01, the floor and
+    5 %, as the taper leaves other waves out of the incident than out of the reflected sea.
     """
     x = places(gauges)
     level = sea(x, 3000, STEP, HEIGHT, PERIOD, DEPTH, kr, 12.0, seed=1)

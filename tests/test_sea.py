@@ -277,7 +277,9 @@ def test_runs_without_waves_are_refused(tmp_path, capsys):
     dry = write_run(tmp_path / "dry", time, np.full((600, 1), np.nan), [3.0], DEPTH)
     assert "all gauges are dry" in refused(capsys, dry)
     assert "cannot be read as a case" in refused(capsys, tmp_path / "nothing")
-    empty = write_run(tmp_path / "empty", time[:0], np.zeros((0, 1)), [3.0], DEPTH, {"time.end": 1.0})
+    empty = write_run(
+        tmp_path / "empty", time[:0], np.zeros((0, 1)), [3.0], DEPTH, {"time.end": 1.0}
+    )
     assert "has no readings of gauges" in refused(capsys, empty)
 
 

@@ -96,8 +96,9 @@ def draw_spectra(sea):
     highest = max(sea.spectra[name].density.max() for name in names)
     top = max(sea.spectra[name].band()[1].max() for name in names)
     grid[0, 0].set_ylim(0.0, 1e6 * min(1.05 * top, HIGHEST * highest))
-    for ax in grid[-1]:
+    for ax in grid.flat[max(len(names) - columns, 0) : len(names)]:  # the lowest of each column
         ax.set_xlabel("frequency [Hz]")
+        ax.tick_params(labelbottom=True)
     for ax in grid[:, 0]:
         ax.set_ylabel("density [mm$^2$ s]")
     freedom = sea.spectra[names[0]].freedom

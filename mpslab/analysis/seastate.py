@@ -8,9 +8,10 @@ import numpy as np
 from mpslab import bed
 from mpslab.analysis import arrays, crossings, eurotop, readings, reflection, spectrum, windows
 from mpslab.analysis.harmonics import HARMONICS, harmonics
-from mpslab.preflight import REGULAR, waterline_slope
+from mpslab.preflight import REGULAR
 
 BAND = (1.0 / 3.0, 6.0)  # times the peak frequency
+TOLD = 1e-3  # share of the variance: less than that is left out of a reflection without a word
 SEGMENT = 20.0  # peak periods in a segment of a record that is twice as long
 
 AMPLITUDES = tuple(f"a{n}" for n in range(1, HARMONICS + 1))
@@ -225,15 +226,15 @@ class _Known:
         """The window of the reflection, and a note or none."""
         if not self.arrival or not rows:
             return window, ""
-        return self.arrival.back(self.x[rows].min(), self._shore(), window)
+        return self.arrival.back(self.x[rows].min(), self.shore()[0], window)
 
-    def _shore(self):
-        """Where the still water ends [m]."""
-        line = self.case["tank"].get("bed") or []
-        for (x, z), (right, top) in pairwise(line):
+    def shore(self):
+        """Where the still water ends [m], and the slope of the bed there, 0 at the end wall."""
+        for (x, z), (right, top) in pairwise(self.case["tank"].get("bed") or ()):
             if top > self.level > z:
-                return x + (right - x) * (self.level - z) / (top - z)
-        return self.case["tank"]["length"]
+                slope = (top - z) / (right - x)
+                return x + (self.level - z) / slope, slope
+        return self.case["tank"]["length"], 0.0
 
 
 def _dry_notes(seen):
@@ -340,7 +341,7 @@ def _reflected(known, rows, window, band, segment, weights):
 
 
 def _left_out_notes(found):
-    if not found.lost > 0.0:
+    if found.lost < TOLD:
         return []
     bands = ", ".join(f"{f:.3g}" for f in found.frequency[found.left_out])
     return [
@@ -352,8 +353,8 @@ def _left_out_notes(found):
 
 def _expected(known, found):
     """What EurOtop expects of the incident waves on the slope of the case, a table."""
-    slope = 0.0 if found is None or known.whole else waterline_slope(known.run.case)
-    if slope <= 0.0:
+    slope = known.shore()[1]
+    if found is None or known.whole or not slope:
         return eurotop.table([])
     period = np.nansum(found.incident / found.frequency) / np.nansum(found.incident)
     return eurotop.table(

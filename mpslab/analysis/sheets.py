@@ -188,7 +188,10 @@ def reflection_lines(sea):
     height, first = ("H", "first harmonic") if sea.regular else ("Hm0", "0.5 to 1.5 fp")
     rest = "no residual of two gauges"
     if np.isfinite(found.unexplained):
-        rest = f"residual {100.0 * found.unexplained:.2g} %, Kr is not told below {found.floor:.2g}"
+        rest = (
+            f"residual {100.0 * found.unexplained:.2g} %; of such noise alone Kr would be "
+            f"{found.floor:.2g}"
+        )
     return [
         f"incident {height} = {1e3 * found.incident_height:.3g} mm, reflected "
         f"{1e3 * found.reflected_height:.3g} mm: Kr = {found.kr_primary:.3f} ({first}; {rest}), "
