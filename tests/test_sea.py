@@ -9,7 +9,7 @@ import pytest
 from seas import GRAVITY, sea, write_run
 
 from mpslab import sea as command
-from mpslab.analysis import arrays, page, windows
+from mpslab.analysis import arrays, page, readings, windows
 from mpslab.waves import group_celerity, wave_number
 
 HEIGHT, PERIOD, DEPTH, STEP, KR = 0.1, 1.5, 0.5, 0.05, 0.5
@@ -122,6 +122,12 @@ def test_window_without_a_period_begins_with_the_first_wave(tmp_path):
     assert "first wave at 'g1'" in found.reason
 
 
+def test_few_waves_are_told_to_be_no_sea_state(irregular):
+    few = command.look(irregular, start=0.0, end=15.0)
+    assert any("waves at most are in the window: a sea state wants 20" in n for n in few.notes)
+    assert not any("sea state" in note for note in command.look(irregular, start=0.0).notes)
+
+
 def test_reflected_waves_that_come_too_late_are_told(tmp_path):
     time, level = regular_record(15.0)
     run = write_run(tmp_path / "run", time, level, PLACES, DEPTH, DRIVEN | {"tank.length": 8.5})
@@ -147,6 +153,21 @@ def test_slope_of_the_case_brings_the_run_up_that_eurotop_expects(tmp_path):
     assert row["name"] == "R2%"
     assert 1.5 * HEIGHT < row["low"] < row["mean"] < row["high"] < 4.0 * HEIGHT
     assert not row["doubts"]
+
+
+@pytest.mark.parametrize("whole", [None, 1.0])
+def test_uneven_readings_twenty_to_a_period_keep_the_wave(whole):
+    """Within 1 % of the amplitude, times off by a fifth of their distance."""
+    time = np.arange(0.0, 12.0, 0.05)
+    time[1:-1] += np.random.default_rng(3).uniform(-0.01, 0.01, len(time) - 2)
+    rows = np.zeros(len(time), [("time", float), ("g", float)])
+    rows["time"], rows["g"] = time, 0.5 + 0.01 * np.sin(2.0 * np.pi * time)
+    seen = readings.read(rows, 0.5, windows.Window(1.0, 11.5, ""), whole)
+    error = seen.elevation[:, 0] - 0.01 * np.sin(2.0 * np.pi * seen.time)
+    assert np.abs(error).max() < 1e-4
+    np.testing.assert_allclose(np.diff(seen.time), seen.step, rtol=1e-9)
+    if whole:
+        assert len(seen.time) * seen.step == pytest.approx(10.0)
 
 
 # Dry gauges, and runs that are not finished

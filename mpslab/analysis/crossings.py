@@ -65,8 +65,8 @@ def statistics(found):
         of the waves; "H1/10", over the highest tenth; "Hmax"; "crest" and "trough", the extremes.
         [m] and [s]. NaN where there are too few waves for it: three, or ten for the tenth.
     """
-    height = np.sort(found["height"])[::-1]
-    period = found["period"][np.argsort(found["height"])[::-1]]
+    order = np.argsort(found["height"])[::-1]
+    height, period = found["height"][order], found["period"][order]
 
     def highest(values, part):
         return values[: round(len(values) / part)].mean() if len(values) >= part else np.nan

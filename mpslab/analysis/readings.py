@@ -6,6 +6,7 @@ import numpy as np
 
 DRY = 0.05  # share of readings that may be missing and are bridged
 FEWEST = 16  # readings in a window
+LEAST_STEPS = 40  # to a period of regular waves
 
 
 @dataclass(frozen=True)
@@ -52,8 +53,8 @@ def read(gauges, level, window, period=None):
         Of the still water.
     window : mpslab.analysis.windows.Window
     period : float [s], optional
-        Of regular waves: a whole number of steps makes a period, and of periods the window, which
-        ends earlier.
+        Of regular waves: a whole number of steps, 40 or more, makes a period, and of periods the
+        window, which ends earlier.
 
     Returns
     -------
@@ -75,7 +76,7 @@ def read(gauges, level, window, period=None):
     begin, end = time[inside][[0, -1]]
     step = float(np.median(np.diff(time[inside])))
     if period:
-        step = period / np.ceil(period / step)
+        step = period / max(np.ceil(period / step), LEAST_STEPS)
         whole = int((end - begin) / period + 1e-6)
         if whole < 2:
             raise ValueError(

@@ -89,12 +89,13 @@ class Reflection:
         Of a sea 4 sqrt(m0), of regular waves 2 a of the first harmonic.
     kr, kr_primary : float
         Reflection coefficient over all frequencies, and of the first harmonic or from 0.5 to 1.5
-        times the peak frequency. A bound harmonic has another wave number than the free wave that
-        it is taken for, and so looks partly reflected: it is in the first and not in the second.
+        times the peak frequency of the incident waves. A bound harmonic has another wave number
+        than the free wave that it is taken for, and so looks partly reflected: it is in the first
+        and not in the second.
     unexplained, floor : float
         Of the first harmonic, or from 0.5 to 1.5 times the peak frequency: the root mean square of
         the residual over that of the waves at the gauges, and what kr_primary would be of no
-        reflection, by the noise that the residual shows. NaN of two gauges.
+        reflection, by the noise that the residual shows (of equal weights). NaN of two gauges.
     lost : float
         Share of the variance at the gauges, within the frequencies asked for, that was left out.
     """
@@ -158,7 +159,7 @@ def of_harmonics(amplitudes, x, period, depth, gravity, weights="equal"):
     )
 
 
-def of_sea(elevation, x, step, low, high, width, depth, gravity, weights="equal", peak=None):
+def of_sea(elevation, x, step, low, high, width, depth, gravity, weights="equal"):
     """Reflection of an irregular sea, from simultaneous records.
 
     Each frequency of the whole records is separated by itself; densities are means over bands.
@@ -177,8 +178,6 @@ def of_sea(elevation, x, step, low, high, width, depth, gravity, weights="equal"
     depth, gravity : float [m], [m/s2]
     weights : str
         As of `separate`.
-    peak : float [Hz], optional
-        Peak frequency; that of the incident waves by default.
 
     Returns
     -------
@@ -208,8 +207,7 @@ def of_sea(elevation, x, step, low, high, width, depth, gravity, weights="equal"
     density = [_band_means(band, values, sound, len(edges) - 1) / (frequency[1] - frequency[0])
                for values in sums]  # fmt: skip
     middle = width * (edges[:-1] + 0.5)
-    if peak is None:
-        peak = middle[np.nanargmax(density[0])]
+    peak = middle[np.nanargmax(density[0])]
     first = (frequency >= PRIMARY[0] * peak) & (frequency <= PRIMARY[1] * peak)
     return Reflection(
         regular=False,

@@ -11,6 +11,7 @@ from mpslab.analysis.harmonics import HARMONICS, harmonics
 from mpslab.preflight import REGULAR
 
 BAND = (1.0 / 3.0, 6.0)  # times the peak frequency
+FEW_WAVES = 20
 TOLD = 1e-3  # share of the variance: less than that is left out of a reflection without a word
 SEGMENT = 20.0  # peak periods in a segment of a record that is twice as long
 
@@ -135,6 +136,12 @@ def analyse(
             )
             row |= found
         numbers.append(row)
+    counts = [row["N"] for row in numbers if "N" in row]
+    if not known.whole and max(counts) < FEW_WAVES:
+        notes.append(
+            f"{max(counts)} waves at most are in the window: a sea state wants {FEW_WAVES} or "
+            "more, and a single wave has none"
+        )
     back, note = (window, "") if asked else known.back(rows, window)
     notes += [note] * bool(note)
     try:

@@ -95,7 +95,7 @@ def as_dict(sea):
         "window": _window(sea.window),
         "band [Hz]": list(sea.band),
         "crossing": sea.crossing,
-        "freedom": next(iter(sea.spectra.values())).freedom,
+        "freedom": None if sea.regular else next(iter(sea.spectra.values())).freedom,
         "gauges": [
             {
                 f"{name} [{UNITS[name]}]" if name in UNITS else name: row[name]
