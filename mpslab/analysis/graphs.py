@@ -68,12 +68,12 @@ def _mark(ax, sea, name):
     """Dots at the crests and troughs of a gauge."""
     time = sea.readings.time
     level = 1e3 * sea.readings.elevation[:, sea.readings.names.index(name)]
-    waves = sea.waves[name]
-    for first, last in zip(waves["time"], waves["time"] + waves["period"], strict=True):
-        rows = np.flatnonzero((time >= first) & (time <= last))
+    ends = []
+    for wave in sea.waves[name]:
+        rows = np.flatnonzero((time >= wave["time"]) & (time <= wave["time"] + wave["period"]))
         if len(rows):
-            ends = rows[[np.argmax(level[rows]), np.argmin(level[rows])]]
-            ax.plot(time[ends], level[ends], "o", color=COLOURS[1], markersize=3, linestyle="")
+            ends += [rows[np.argmax(level[rows])], rows[np.argmin(level[rows])]]
+    ax.plot(time[ends], level[ends], "o", color=COLOURS[1], markersize=3, linestyle="")
 
 
 def draw_spectra(sea):
