@@ -7,10 +7,10 @@ import mpslab
 
 ROOT = Path(mpslab.__file__).parent
 FLOORS = {
-    6: "tank progress measures film launch terminal",
+    6: "tank progress measures film sea launch terminal",
     5: "simulation record results watch output checkpoint vtkhdf snapshots overturning "
     "pictures preflight preflight_text cases initial inputs restart provenance scatter "
-    "headings panels catalogue scenes actions",
+    "headings panels catalogue scenes actions analysis",
     4: "step timestep settling",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
     "deflation conjugate_gradient solids forcings geometry filling friction census "

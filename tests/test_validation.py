@@ -7,13 +7,14 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
+from mpslab.analysis.harmonics import harmonics
 from validation import __main__ as command
 from validation import judge, result, suite
 from validation.comparison import Comparison
 from validation.data import foremost, read_columns
 from validation.jet import compare as jet
 from validation.suite import Criterion, PlannedRun
-from validation.wave_analysis import decay, harmonics
+from validation.wave_analysis import decay
 from validation.work import Outcome, Task, Work, fingerprint
 
 TINY = {"particles.spacing": 0.008, "scheme.settling": 0, "time.end": 0.02}

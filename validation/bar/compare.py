@@ -4,8 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
+from mpslab.analysis.harmonics import harmonics
 from validation.comparison import Comparison, rms
-from validation.wave_analysis import harmonics
 
 DATA = Path(__file__).parent / "data" / "beji_battjes_luth_bar_caseA.csv"
 PERIODS = 2  # of the simulation, the last ones

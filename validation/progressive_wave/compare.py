@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from mpslab.analysis.harmonics import harmonics
 from mpslab.waves import group_celerity, wavelength
 from validation.comparison import Comparison
-from validation.wave_analysis import decay, harmonics
+from validation.wave_analysis import decay
 
 PERIODS = 2  # that harmonics are taken over at least
 SETTLE = 1.5  # periods after the soft start until the wave is steady where it has come

@@ -4,8 +4,8 @@ import numpy as np
 from scipy.optimize import curve_fit
 
 from mpslab import waves
+from mpslab.analysis.harmonics import harmonics
 from validation.comparison import Comparison
-from validation.wave_analysis import harmonics
 
 PERIODS = 2  # that harmonics are taken over
 SETTLE = 1.5  # periods after the soft start until the wave is steady where it has come

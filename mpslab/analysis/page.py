@@ -1,0 +1,54 @@
+"""One page of a sea state, in HTML, which loads nothing: its pictures stand in it."""
+
+import base64
+from pathlib import Path
+
+from mpslab.analysis import sheets
+
+
+def available():
+    """Whether jinja2, which draws the page, is installed."""
+    try:
+        import jinja2  # noqa: F401
+    except ImportError:
+        return False
+    return True
+
+
+def render(sea, pictures):
+    """The page as text.
+
+    Parameters
+    ----------
+    sea : mpslab.analysis.seastate.Sea
+    pictures : dict of str to bytes
+        PNG files by their names.
+
+    Returns
+    -------
+    str
+    """
+    import jinja2
+
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(Path(__file__).parent),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    headings, rows = sheets.gauge_table(sea)
+    return environment.get_template("page.html.j2").render(
+        case=sea.run.tables,
+        sea=sea,
+        outcome=sea.run.outcome or "unknown",
+        headings=headings,
+        rows=rows,
+        reflection=sheets.reflection_lines(sea),
+        expected=sheets.expected_lines(sea),
+        pictures={name: _url(content) for name, content in pictures.items()},
+    )
+
+
+def _url(png):
+    return f"data:image/png;base64,{base64.b64encode(png).decode('ascii')}"
