@@ -27,7 +27,7 @@ test: .venv/tested lint
 
 # These lead into every function of the kernels, most on some hundred particles.  What starts
 # processes of its own, as runs from the command line do, has the usual kernels there.
-CHECKED := $(patsubst %,tests/test_%.py,deflation determinism friction gauges gradients laplacians \
+CHECKED := $(patsubst %,tests/test_%.py,cells deflation determinism friction gauges gradients laplacians \
   neighbors pressure solvers sources stabilisers step surface viscosity walls)
 build-checked: build/checked/built
 build/checked/built: .venv/tested $(SOURCES) $(shell find mpslab -name '*.py')
