@@ -65,7 +65,7 @@ class Domain:
     comm : communicator, optional
         That of `world` unless given.
     cells : mpslab.core.cells.Cells, optional
-        Into which the slabs are divided; a column along z for each quarter of one, unless given.
+        Into which the slabs are divided; unless given, only along x.
 
     Attributes
     ----------
@@ -86,8 +86,7 @@ class Domain:
 
     def __init__(self, slabs, comm=None, cells=None):
         self.slabs = slabs
-        self.cells = make_cells([0.0] * 3, [0.0] * 3, slabs.width, slabs=slabs)
-        self.cells = cells or self.cells
+        self.cells = cells or make_cells([0.0] * 3, [0.0] * 3, slabs.width, slabs=slabs)
         self.comm = comm or world()
         self.rank, self.size = self.comm.rank, self.comm.size
         self.cuts = balance.cut("static", np.zeros(slabs.count), self.size)

@@ -90,8 +90,10 @@ def make_cells(lower, upper, radius, width=0.0, slabs=None):
     count = np.fmin(np.fmax(extent / (WIDTH * radius * WIDER), 1.0), MOST).astype(np.int64)
     if slabs is not None:
         lower[0], count[0] = slabs.lower, slabs.count * PER_SLAB
-    while count.prod(dtype=float) > MOST:  # wider cells, rather than more than memory holds
-        axis = np.argmax(count * [slabs is None, 1, 1])
+    # Wider cells, rather than more than memory holds; along x they stay parts of slabs.
+    free = np.array([slabs is None, True, True])
+    while count.prod(dtype=float) > MOST and np.any(count[free] > 1):
+        axis = np.argmax(count * free)
         count[axis] = (count[axis] + 1) // 2
     per = count / np.maximum(extent, radius)
     if slabs is not None:

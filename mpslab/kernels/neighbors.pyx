@@ -48,8 +48,9 @@ def search(const double[:, ::1] packed, const unsigned char[::1] active, const i
             for i in range(first, last):
                 used = indptr[i]
                 indptr[i] = <int>total
-                memcpy(&indices[total], &found[begin[i]], used * sizeof(int))
-                total += used
+                if used > 0:
+                    memcpy(&indices[total], &found[begin[i]], used * sizeof(int))
+                    total += used
             first = last
             indptr[first] = <int>total
     return total
@@ -64,7 +65,7 @@ cdef Py_ssize_t walk(const double[:, ::1] packed, const unsigned char[::1] activ
 
     length, begin : (n,) out, where each row lies in `found`
     """
-    cdef int[2 * STRETCH] layer  # where each layer of candidates begins; room for all within reach
+    cdef int[2 * STRETCH] layer  # where each layer of candidates begins, those in reach included
     cdef int cx, c, low, high, next = 0, lowest = max(x - reach[0], 0)
     cdef Py_ssize_t i, m, filled = 0, own
     cdef Py_ssize_t room = nearby.shape[1] - LANES, capacity = found.shape[0]
