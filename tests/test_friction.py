@@ -41,8 +41,9 @@ def acceleration(position, velocity, dim, nu=0.0, slip=True, role=FLUID):
     found = neighbors_of(particles.position, stencil.radius)
     c = matrices_of(particles.position, particles.role, found, stencil)
     scheme = Scheme(smagorinsky=CONSTANT, wall_slip=slip)
+    eddy = friction.eddies(particles, found, stencil, c, scheme, lambda _: None)
     return friction.acceleration(
-        particles, found, (stencil, stencil), c, Fluid(viscosity=nu), scheme, lambda _: None
+        particles, found, stencil, eddy, Fluid(viscosity=nu), scheme
     )
 
 
