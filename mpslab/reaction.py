@@ -90,12 +90,17 @@ class Reaction:
     def end(self, flow, dt):
         """Add up the step, of all ranks, while its ghosts are still there."""
         particles, (by_all, *by_each) = flow.particles, self._changes
-        mine = (particles.fluid & flow.domain.owned)[:, np.newaxis]
-        parts_ = [particles.velocity - self._before, self._pushed - self._before, by_all]
-        for (_, about), change in zip(self.wanted, by_each, strict=True):
-            parts_ += [-change, -np.cross(self._place - about, change)]
+        found = np.zeros((len(particles), len(self.sums)))
+        whole = [particles.velocity - self._before, self._pushed - self._before, by_all]
+        found[:, : 3 * AXES] = np.hstack(whole)
+        near = np.flatnonzero(np.diff(self._lists[0].indptr))
+        for k, ((_, about), change) in enumerate(zip(self.wanted, by_each, strict=True)):
+            change, lever = -change[near], self._place[near] - about
+            first = AXES * (3 + 2 * k)
+            found[near, first : first + 2 * AXES] = np.hstack([change, np.cross(lever, change)])
+        found[~(particles.fluid & flow.domain.owned)] = 0.0
         mass = self.case.fluid.density * flow.stencil.spacing**flow.stencil.dim
-        self.sums += mass * flow.domain.totals(np.where(mine, np.hstack(parts_), 0.0))
+        self.sums += mass * flow.domain.totals(found)
         self.span += dt
 
 

@@ -243,7 +243,7 @@ def _add_viscosity(flow, dt):
     def change(pairs):
         return dt * friction.acceleration(particles, pairs, stencil, eddy, fluid, scheme)
 
-    if flow.reaction:
+    if flow.reaction and not scheme.wall_slip:
         flow.reaction.add(change)
     particles.velocity += change(flow.neighbors)
 
@@ -357,11 +357,12 @@ def _stabilise(flow, stage, before, dt):
 def _part(flow, model, before, dt):
     """Apply a stabiliser, pass by pass."""
     one_pass = getattr(model, "one_pass", model.stabilise)
+    felt = flow.reaction and not getattr(model, "KEEPS_VELOCITY", False)
 
     def act(particles, pairs):
         one_pass(particles, before, pairs, flow.stencil, flow.correction, dt, flow.case.scheme)
 
     for _ in range(getattr(model, "PASSES", 1)):
-        if flow.reaction:
+        if felt:
             flow.reaction.stabilise(act, flow.particles)
         act(flow.particles, flow.neighbors)

@@ -6,6 +6,7 @@ from mpslab.kernels import repulsion
 from mpslab.stabilisers.shifting import LONGEST
 
 STAGE = "corrected"
+KEEPS_VELOCITY = True
 NEEDS_CORRECTION = True
 
 

@@ -6,6 +6,7 @@ from mpslab.correction import identity
 from mpslab.kernels import repulsion
 
 STAGE = "corrected"
+KEEPS_VELOCITY = True
 LONGEST = 0.05  # of a particle spacing, in one step
 
 
