@@ -89,18 +89,21 @@ class Reaction:
 
     def end(self, flow, dt):
         """Add up the step, of all ranks, while its ghosts are still there."""
-        particles, (by_all, *by_each) = flow.particles, self._changes
-        found = np.zeros((len(particles), len(self.sums)))
-        whole = [particles.velocity - self._before, self._pushed - self._before, by_all]
-        found[:, : 3 * AXES] = np.hstack(whole)
-        near = np.flatnonzero(np.diff(self._lists[0].indptr))
-        for k, ((_, about), change) in enumerate(zip(self.wanted, by_each, strict=True)):
-            change, lever = -change[near], self._place[near] - about
-            first = AXES * (3 + 2 * k)
-            found[near, first : first + 2 * AXES] = np.hstack([change, np.cross(lever, change)])
-        found[~(particles.fluid & flow.domain.owned)] = 0.0
+        particles, domain = flow.particles, flow.domain
+        water = np.flatnonzero(particles.fluid & domain.owned)
+        near = water[np.diff(self._lists[0].indptr)[water] > 0]
+        before = self._before.take(water, 0)
+        by_all, *by_each = (change.take(near, 0) for change in self._changes)
+        place = self._place.take(near, 0)
+        moments = [np.cross(place - about, change)
+                   for (_, about), change in zip(self.wanted, by_each, strict=True)]  # fmt: skip
+        on = [-part for pair in zip(by_each, moments, strict=True) for part in pair]
         mass = self.case.fluid.density * flow.stencil.spacing**flow.stencil.dim
-        self.sums += mass * flow.domain.totals(found)
+        self.sums += mass * domain.totals(
+            (water, particles.velocity.take(water, 0) - before),
+            (water, self._pushed.take(water, 0) - before),
+            (near, np.hstack([by_all, *on])),
+        )
         self.span += dt
 
 
