@@ -1,10 +1,7 @@
 """What a user has done every so often while a run goes on."""
 
-import math
-from numbers import Real
-
 from mpslab.keys import require
-from mpslab.schedule import due
+from mpslab.schedule import check_interval, due
 
 
 class Actions:
@@ -28,9 +25,7 @@ class Actions:
         ValueError
             If the interval is no such number, or the action cannot be called.
         """
-        fits = isinstance(interval, Real) and not isinstance(interval, bool)
-        fits = fits and 0.0 <= interval < math.inf
-        require(fits, "interval", interval, "a number of seconds >= 0")
+        check_interval("interval", interval)
         require(callable(action), "action", action, "a function of the simulation")
         self._actions.append((interval, action))
 

@@ -284,9 +284,19 @@ class Domain:
         """Sum of (n,) values over the particles of all ranks, slab by slab."""
         return self.add(np.bincount(self.slab, values, minlength=self.slabs.count))
 
-    def totals(self, values):
-        """As `total`, of each column of (n, k) values, (k,)."""
-        columns = [np.bincount(self.slab, column, self.slabs.count) for column in values.T]
+    def totals(self, *parts):
+        """As `total`, column by column, of values that some particles have, (k,).
+
+        Parameters
+        ----------
+        parts : pairs of (m,) int and (m, j) float64
+            Rows of particles that this rank owns, and their values.
+        """
+        columns = [
+            np.bincount(self.slab[rows], column, self.slabs.count)
+            for rows, values in parts
+            for column in values.T
+        ]
         return sum(self.collect(np.column_stack(columns)))
 
     def from_all(self, item):

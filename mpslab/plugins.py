@@ -106,7 +106,7 @@ def is_path(name):
 def _imported(family, name):
     try:
         model = pkgutil.resolve_name(name)
-    except (ImportError, AttributeError) as error:
+    except Exception as error:
         reason = " ".join(str(error).split())
         raise CaseError(
             f"{KEYS[family]} = {name!r}: cannot be imported ({reason}); must be a module on "

@@ -103,8 +103,9 @@ def preflight(case):
     if paddle:
         notes += [*paddle.doubts, *_hardly_moves(case, paddle)]
         found["wavemaker"] = _wavemaker(case, paddle)
-    if paddle and paddle.stroke > 0.0 and paddle.height > 0.0:
-        describe = _regular_wave if case.wavemaker.type in REGULAR else _solitary_wave
+    waves_of = {**dict.fromkeys(REGULAR, _regular_wave), "solitary": _solitary_wave}
+    describe = waves_of.get(case.wavemaker.type)
+    if describe and paddle.stroke > 0.0 and paddle.height > 0.0:
         found["wave"] = describe(case, paddle.height, notes)
     return Preflight(_plain({**found, "warnings": notes}))
 

@@ -90,14 +90,23 @@ class Reaction:
 
     def end(self, flow, dt):
         """Add up the step, of all ranks, while its ghosts are still there."""
-        particles, (by_all, *by_each) = flow.particles, self._changes
-        mine = np.zeros((len(particles), 1), bool)
-        mine[flow.domain.owned, 0] = particles.fluid[flow.domain.owned]
-        parts_ = [particles.velocity - self._before, self._pushed - self._before, by_all]
-        for (_, about), change in zip(self.wanted, by_each, strict=True):
-            parts_ += [-change, -np.cross(self._place - about, change)]
+        particles, domain = flow.particles, flow.domain
+        water = np.zeros(len(particles), bool)
+        water[domain.owned] = particles.fluid[domain.owned]
+        water = np.flatnonzero(water)
+        near = water[np.diff(self._pairs[0][0])[water] > 0]
+        before = self._before.take(water, 0)
+        by_all, *by_each = (change.take(near, 0) for change in self._changes)
+        place = self._place.take(near, 0)
+        moments = [np.cross(place - about, change)
+                   for (_, about), change in zip(self.wanted, by_each, strict=True)]  # fmt: skip
+        on = [-part for pair in zip(by_each, moments, strict=True) for part in pair]
         mass = self.case.fluid.density * flow.stencil.spacing**flow.stencil.dim
-        self.sums += mass * flow.domain.totals(np.where(mine, np.hstack(parts_), 0.0))
+        self.sums += mass * domain.totals(
+            (water, particles.velocity.take(water, 0) - before),
+            (water, self._pushed.take(water, 0) - before),
+            (near, np.hstack([by_all, *on])),
+        )
         self.span += dt
 
 

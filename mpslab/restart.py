@@ -38,8 +38,8 @@ class Restart:
 
 def outside(case, instruments):
     """What a run has from outside of mpslab, models and instruments, as text for the checkpoint."""
-    names = [one.name for one in instruments]
-    return json.dumps({"models": plugins.added(case), "instruments": sorted(names)})
+    names = sorted(set(instruments) - set(plugins.names("instruments")))
+    return json.dumps({"models": plugins.added(case), "instruments": names})
 
 
 def look(folder, overrides=None, instruments=()):

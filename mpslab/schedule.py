@@ -1,5 +1,10 @@
 """When something falls due that is done every so often."""
 
+import math
+from numbers import Real
+
+from mpslab.keys import require
+
 
 def due(interval, before, time):
     """Whether an interval [s] ends in the step from one time to another [s]; each step, with 0.
@@ -8,3 +13,9 @@ def due(interval, before, time):
     times.
     """
     return interval == 0.0 or int(time / interval) > int(before / interval)
+
+
+def check_interval(key, interval):
+    """Raise CaseError unless an interval is a number of seconds, 0 for every step."""
+    fits = isinstance(interval, Real) and not isinstance(interval, bool)
+    require(fits and 0.0 <= interval < math.inf, key, interval, "a number of seconds >= 0")

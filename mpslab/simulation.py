@@ -85,7 +85,7 @@ class Simulation:
             if out is not None:
                 out.abandon()
             raise
-        self._set_up(flow, out, files, reading, instruments)
+        self._set_up(flow, out, files, reading)
         self._record.write_case(self._text, files)
         self._record.begin()
         self._record.read_all()
@@ -137,7 +137,7 @@ class Simulation:
         folder = take(RunFolder.reopen, folder)
         try:
             given = {"forcings": forcings, "solids": solids}
-            return cls._resumed(folder, changes, instruments, given)
+            return cls._resumed(folder, changes, tuple(instruments), given)
         except BaseException:
             folder.let_go()
             raise
@@ -154,7 +154,7 @@ class Simulation:
         )
         flow.solids.restore(state)
         flow.readings.update(json.loads(state["readings"]))
-        self._set_up(flow, folder, found.inputs, reading, instruments)
+        self._set_up(flow, folder, found.inputs, reading)
         self.step, self.dt, self.lost = state["step"], state["dt"], state["lost"]
         self.at_start = state["at_start"]
         self._flow.time, self._flow.compression = state["time"], state.get("compression", 0.0)
@@ -163,7 +163,7 @@ class Simulation:
         self._record.note_resume(state, found.changes, self._text, found.inputs)
         return self
 
-    def _set_up(self, flow, folder, files, reading, own):
+    def _set_up(self, flow, folder, files, reading):
         case = inputs.pointed(flow.case, files, folder.path) if folder else flow.case
         self.case = flow.case = case
         self._files = inputs.to_text(files)
@@ -174,7 +174,7 @@ class Simulation:
         self._flow = flow
         keep_freed()
         self._record = Record(case, flow, folder, reading)
-        self._outside, self._actions = restart.outside(case, own), Actions()
+        self._outside, self._actions = restart.outside(case, reading), Actions()
         self._rebalancer = Rebalancer(flow.domain, case.parallel.balance)
 
     @property

@@ -284,7 +284,10 @@ def _add_viscosity(flow, dt):
     def change(near):
         return dt * friction.acceleration(near, flow.laplacian_stencil, eddy, fluid, scheme)
 
-    _act(flow, flow.near, change)
+    if scheme.wall_slip:
+        flow.particles.velocity += change(flow.near)  # no solid has a part in it
+    else:
+        _act(flow, flow.near, change)
 
 
 def find_surface(flow):
@@ -402,11 +405,12 @@ def _stabilise(flow, stage, dt):
 def _part(flow, model, dt):
     """Apply a stabiliser, pass by pass."""
     one_pass = getattr(model, "one_pass", model.stabilise)
+    felt = flow.reaction and not getattr(model, "KEEPS_VELOCITY", False)
 
     def act(near):
         one_pass(near, dt, pace(flow.case), flow.case.scheme)
 
     for _ in range(getattr(model, "PASSES", 1)):
-        if flow.reaction:
+        if felt:
             flow.reaction.stabilise(flow.near, act)
         act(flow.near)

@@ -104,6 +104,9 @@ def test_resume_without_the_instruments_of_a_run_is_refused(tmp_path, given):
     ({"columns": ("time [s]",)}, "instruments[0].columns"),
     ({"columns": ("time [s]", "z [m]", "z [mm]")}, "headings that differ in more than their"),
     ({"columns": None}, "instruments[0].columns"),
+    ({"name": "a.b"}, "instruments[0].name"),
+    ({"interval": -1.0}, "instruments[0].interval = -1.0: must be a number of seconds >= 0"),
+    ({"interval": None}, "instruments[0].interval = None: must be a number of seconds >= 0"),
 ])  # fmt: skip
 def test_an_instrument_that_has_no_table_is_refused_and_nothing_written(tmp_path, changes, said):
     one = Highest()

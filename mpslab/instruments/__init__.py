@@ -13,9 +13,10 @@ from collections import Counter
 from mpslab import plugins
 from mpslab.columns import name_of
 from mpslab.keys import require, shown
+from mpslab.schedule import check_interval
 
 FIRST = ("time [s]", "step")  # what the first column may be: it tells which rows a restart drops
-FORBIDDEN = "/\\"
+FORBIDDEN = "/\\."  # the last stands between name and key in a checkpoint
 
 
 class Instrument:
@@ -27,8 +28,8 @@ class Instrument:
         Of its table, ``NAME.csv``.
     columns : sequence of str
         Headings with their units, "level [m]"; the first is "time [s]" or "step".
-    interval : float or None [s]
-        Time between readings, 0 for every step; None: read only where the loop asks for it.
+    interval : float [s]
+        Time between readings, 0 for every step; None where it is the loop that asks.
     words : dict of str to int
         Columns of words, by their headings, and how many letters they may have.
     """
@@ -75,7 +76,7 @@ def with_own(case, own):
     Raises
     ------
     ValueError
-        If one of the user's is none, or has a name or columns that no table can have.
+        If one of the user's is none, or has a name, columns or an interval that it cannot have.
     """
     found = of(case)
     for number, one in enumerate(own):
@@ -84,6 +85,7 @@ def with_own(case, own):
             raise ValueError(f"{where} = {shown(one)}: must be an mpslab.Instrument")
         _check_name(f"{where}.name", getattr(one, "name", None), found)
         _check_columns(f"{where}.columns", getattr(one, "columns", None))
+        check_interval(f"{where}.interval", one.interval)
         found[one.name] = one
     return found
 

@@ -13,5 +13,6 @@ once.
 
 For the force on a solid it is called once more, with the pairs of the water with this solid alone:
 what it does to a velocity has to be a sum over pairs.  A module whose ``stabilise`` is several such
-passes says how many, ``PASSES``, and has them as ``one_pass``, with the same arguments.
+passes says how many, ``PASSES``, and has them as ``one_pass``, with the same arguments.  One that
+changes no velocity says ``KEEPS_VELOCITY = True``, and is not called again.
 """

@@ -3,6 +3,7 @@
 from mpslab.stabilisers.shifting import share, shift
 
 STAGE = "corrected"
+KEEPS_VELOCITY = True
 
 
 def stabilise(near, dt, pace, scheme):

@@ -5,6 +5,7 @@ import numpy as np
 from mpslab.kernels import density, repulsion
 
 STAGE = "corrected"
+KEEPS_VELOCITY = True
 LONGEST = 0.05  # of a particle spacing, in one pace
 
 
