@@ -13,7 +13,7 @@ CAPTION = "Fingers: the surface at the jet and after it, coloured by u, and its 
 
 def draw(found):
     """The figure, from the kept results of its runs."""
-    figure = Figure(figsize=(13.0, 12.5), layout="constrained")
+    figure = Figure(figsize=(9.6, 11.5), layout="constrained")
     grid = figure.add_gridspec(len(TIMES) + 1, len(SEEN))
     axes = [figure.add_subplot(grid[i, j]) for i in range(len(TIMES)) for j in range(len(SEEN))]
     panels = [(time, name) for time in TIMES for name in SEEN]

@@ -22,7 +22,7 @@ LINES = {
     "iccg": {"color": "black", "linestyle": "-"},
     "piccg": {"color": "#d55e00", "linestyle": "-"},
     "scg": {"color": "#0072b2", "linestyle": "--"},
-    "ddd": {"color": "#009e73", "linestyle": "-"},
+    "ddd": {"color": "#009e73", "linestyle": (0, (4, 2))},
     "mps": {"color": "#cc79a7", "linestyle": "-."},
     "standard": {"color": "#0072b2", "linestyle": "-"},
     "fine": {"color": "#56b4e9", "linestyle": ":"},

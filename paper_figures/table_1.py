@@ -12,8 +12,9 @@ PAPER = {
     "scg": (4290, 90214.78),
     "ddd": (4170, 79271.70),
 }
-OURS = ("ranks", "to t [s]", "time steps", "net time [s]", "time a step [s]", "over ICCG")
-PAPERS = ("paper: steps", "net time [s]", "time a step [s]", "over ICCG")
+COST = ("time\nsteps", "net time\n[s]", "time a step\n[s]", "over\nICCG")
+OURS = ("ranks", "to t\n[s]", *COST)
+PAPERS = ("paper: time\nsteps", *COST[1:])
 HEADER = ("method", *OURS, *PAPERS)
 CAPTION = "Time steps, net time and time a step of the runs, and the paper's"
 
@@ -57,7 +58,7 @@ def _papers(name):
 def draw(found):
     """The table as a figure, from the kept results of its runs."""
     body = rows(found)
-    figure = Figure(figsize=(15.0, 0.8 + 0.42 * (len(body) + 1)), layout="constrained")
+    figure = Figure(figsize=(12.0, 1.0 + 0.42 * (len(body) + 1)), layout="constrained")
     ax = figure.subplots()
     ax.set_axis_off()
     widths = [0.30] + [0.7 / (len(HEADER) - 1)] * (len(HEADER) - 1)
@@ -66,7 +67,9 @@ def draw(found):
     table.auto_set_font_size(False)
     table.set_fontsize(11)
     table.scale(1.0, 1.7)
-    for (_, column), cell in table.get_celld().items():
+    for (row, column), cell in table.get_celld().items():
+        if row == 0:
+            cell.set_height(1.6 * cell.get_height())
         if column == 0:
             cell.set_text_props(ha="left")
     figure.suptitle(f"{CAPTION}\n{made_on(found[RUNS[0]])}")

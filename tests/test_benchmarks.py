@@ -9,7 +9,7 @@ from mpslab.stopwatch import PHASES
 
 sys.path.append(str(ROOT))  # last: the package under test goes first
 
-from benchmarks import pair, program
+from benchmarks import against, pair, program, solvers, timed
 from benchmarks.replay import Replay
 
 SMALL = {"tank.width": 0.0, "particles.spacing": 0.006}
@@ -66,3 +66,19 @@ def test_steps_pass_again_with_the_times_they_took():
     assert clock() == 0.5
     clock.step()
     assert clock() == 0.75
+
+
+def test_solvers_all_solve_the_system_that_was_taken():
+    system = solvers.take_system(0.006)
+    found = solvers.measure(system, 1e-8, 1)
+    assert {"deflated", "scg", "piccg", "iccg", "scipy, Jacobi"} <= set(found)
+    assert all(f["residual"] <= 1e-8 and f["iterations"] > 0 for f in found.values())
+    assert solvers.table({len(system): found})[2].startswith("| deflated | ")
+
+
+def test_stretch_of_a_run_is_timed_by_phase():
+    found = timed.stretch("dam_break", {"particles.spacing": 0.03}, 0.0, 4, 0.0, True)
+    assert found["steps"] == 4 and found["iterations"] > 0
+    assert sum(found["phases"].values()) == pytest.approx(found["seconds"], rel=0.3)
+    lines = against.table([(found, {**found, "cpu": 0.5 * found["cpu"]})])
+    assert next(line for line in lines if "processor" in line).endswith("| 2.00 | 2.00 to 2.00 |")
