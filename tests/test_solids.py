@@ -196,6 +196,11 @@ def test_run_with_an_own_solid_goes_on_to_the_same_bytes(tmp_path):
     assert again.particles.position.tobytes() == whole.particles.position.tobytes()
 
 
+def test_own_solid_without_a_plain_name_is_refused():
+    with pytest.raises(CaseError, match=r"^solids\.0\.name = 'a\.b': must be text of one line"):
+        Simulation(make_case(), solids=[Flap("a.b")])
+
+
 def test_own_solids_of_one_name_are_refused(tmp_path):
     with pytest.raises(ValueError, match="'flap': must have a name that no other solid has"):
         Simulation(make_case(), tmp_path / "run", solids=[flap, Flap()])

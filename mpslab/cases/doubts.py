@@ -50,7 +50,7 @@ def _coarse_wave(case):
 
 def _low_walls(case):
     key, height = _wave_height(case)
-    if case.tank.height >= case.tank.depth + 2.0 * height:
+    if case.tank.lid or case.tank.height >= case.tank.depth + 2.0 * height:
         return ""
     return (
         f"tank.height = {case.tank.height:g} m: lower than tank.depth + 2 {key}, water may pass the"

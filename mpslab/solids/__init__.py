@@ -15,7 +15,8 @@ A solid is an object with
     state() -> dict, restore(dict)
         What a checkpoint keeps of it: names to numbers, strings and arrays.
 
-`mpslab.solids.solid.Solid` has all of these but the first two, for a solid that keeps nothing.
+`mpslab.solids.solid.Solid` has all of these but the first two, for a solid that keeps nothing, and
+what a run calls: `begin`, `advance`, `push` and `move`.
 
 In a step a solid has the velocity of its whole move in this step, move/dt, and as acceleration the
 change of that velocity since the step before: so solid and water, which the pressure keeps apart,

@@ -2,11 +2,15 @@
 
 import numpy as np
 
+from mpslab.keys import check_value
+from mpslab.parameters import NAME
 from mpslab.particles import FIRST_SOLID, PISTON, TANK
 from mpslab.solids import gates, obstacles
 from mpslab.solids.piston import Piston
 from mpslab.solids.tank import Tank
 
+# The name of one's own; without a dot, which parts it from the key of an entry of its state.
+OWN_NAME = {**NAME, "forbidden": NAME["forbidden"] + ".", "unit": ""}
 KINDS = (obstacles, gates)  # that a case may have several of, in the order of their bodies
 
 
@@ -26,6 +30,8 @@ def solids_of(case, paddle=None, own=(), backmost=0.0):
     -------
     Solids
     """
+    for number, solid in enumerate(own):
+        check_value(f"solids.{number}.name", solid.name, OWN_NAME)
     tank = Tank(case, paddle.backmost if paddle else backmost)
     bodies = {TANK: tank}
     if case.wavemaker.type != "none":

@@ -94,9 +94,8 @@ class Tank(Solid):
 
     @property
     def _behind(self):
-        """How far the tank reaches behind x = 0 before its walls begin [m]."""
-        spacing = self.case.particles.spacing
-        return np.ceil(-self.backmost / spacing) * spacing
+        """How far the piston goes back behind x = 0, in whole spacings."""
+        return np.ceil(-self.backmost / self.case.particles.spacing)
 
     @cached_property
     def _section(self):
@@ -112,7 +111,7 @@ class Tank(Solid):
     def _smooth_bed(self):
         """Layers along the bed, the uppermost of faces."""
         case, layers, spacing = self.case, self.case.particles.layers, self.case.particles.spacing
-        behind = (layers + np.ceil(-self.backmost / spacing)) * spacing
+        behind = (layers + self._behind) * spacing
         points = beds.extended(case.tank.bed, behind, layers * spacing)
         rows = [beds.layer(points, (k + 0.5) * spacing, spacing) for k in range(layers)]
         roles = [np.full(len(row), FILLER if k else FACE) for k, row in enumerate(rows)]
@@ -125,7 +124,7 @@ class Tank(Solid):
     def _staircase(self):
         """Bed cut out of the lattice, in steps of one spacing (to compare with the smooth bed)."""
         case, layers, spacing = self.case, self.case.particles.layers, self.case.particles.spacing
-        behind = (layers + np.ceil(-self.backmost / spacing)) * spacing
+        behind = (layers + self._behind) * spacing
         end = effective_length(case)
         x = lattice.between(case, -behind, end + layers * spacing)
         top = np.ceil(beds.elevation(case.tank.bed, x) / spacing - 0.5)
@@ -144,7 +143,7 @@ class Tank(Solid):
     def _side_wall(self, layer):
         """One layer of a side wall: the whole section of the tank, and the solids beyond it."""
         case, layers, spacing = self.case, self.case.particles.layers, self.case.particles.spacing
-        behind = self._behind if self.has_piston else 0.0
+        behind = self._behind * spacing if self.has_piston else 0.0
         end = effective_length(case)
         x = lattice.between(case, -behind - layers * spacing, end + layers * spacing)
         section = np.vstack([lattice.stack(case, place, case.tank.height) for place in x])

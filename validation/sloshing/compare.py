@@ -7,6 +7,7 @@ from mpslab.forcings.frame import motion_of
 from mpslab.waves import standing_wave_frequency
 from validation.comparison import Comparison
 
+FREE = {"mode-1": "period_1", "mode-1-fine": "period_1_fine", "mode-2": "period_2"}
 FORCED = {"sway": "sway", "roll-low": "roll_low", "roll-high": "roll_high"}
 SETTLED = 2.0  # [s] from when on the forced motion is judged, two whole periods
 FADED = 2.0  # [s] from when on the slow roll is judged
@@ -15,15 +16,9 @@ FADED = 2.0  # [s] from when on the slow roll is judged
 def compare(runs):
     """Periods of free modes, amplitude and phase of forced ones, level of a slow roll."""
     result = Comparison()
-    for number in (1, 2):
-        run = runs[f"mode-{number}"]
-        time, mode = modes(run, number)
-        natural = 2.0 * np.pi / standing_wave_frequency(
-            number, run.case.tank.length, run.depth, run.gravity
-        )
-        result.measure(f"period_{number}", period(time, mode) / natural)
-        figure = result.figure(f"Free mode {number}", "t / T", "mode / amplitude")
-        figure.line("mpslab", time / natural, mode / run.case.initial.amplitude)
+    for name, metric in FREE.items():
+        if name in runs:
+            _free(result, runs[name], metric)
     for name, metric in FORCED.items():
         run = runs[name]
         time, mode = modes(run, 1)
@@ -38,6 +33,17 @@ def compare(runs):
                     theory / run.depth)  # fmt: skip
     _slow_roll(result, runs["slow-roll"])
     return result
+
+
+def _free(result, run, metric):
+    tank, initial = run.case.tank, run.case.initial
+    time, mode = modes(run, initial.mode)
+    frequency = standing_wave_frequency(initial.mode, tank.length, run.depth, run.gravity)
+    natural = 2.0 * np.pi / frequency
+    result.measure(metric, period(time, mode) / natural)
+    title = f"Free mode {initial.mode}, {run.label}"
+    figure = result.figure(title, "t / T", "mode / amplitude")
+    figure.line("mpslab", time / natural, mode / initial.amplitude)
 
 
 def modes(run, number):
