@@ -84,7 +84,7 @@ def test_stabilisers_act_in_their_stage_with_the_positions_of_the_prediction():
     flow, calls = flow_of(make_case(CLASSIC)), []
 
     def model(stage):
-        def stabilise(particles, before, neighbors, stencil, correction, dt, scheme):
+        def stabilise(particles, before, neighbors, stencil, correction, dt, pace, scheme):
             calls.append((stage, before.copy(), particles.position.copy(), dt))
 
         return SimpleNamespace(STAGE=stage, stabilise=stabilise)
