@@ -35,6 +35,7 @@ CLASSIC = {
     "scheme.walls": "solved",
     "scheme.surface": "marked",
     "scheme.stabiliser": ["shifting", "ds"],
+    "scheme.gamma": 0.01,  # 0.005 in a largest step of the predicted projection
 }
 
 

@@ -6,9 +6,9 @@ from test_parallel import assert_same_results, table
 
 BREAKER = ["plunging_breaker", "--set", "particles.spacing=0.004"]
 SOLVERS = ["scg", "piccg", "deflated"]
-LONG = [*BREAKER, "--set", "output.pictures=[0.1]", "--until", "0.24"]
+LONG = [*BREAKER, "--set", "output.pictures=[0.1]", "--until", "0.5"]
 SHORT = [*BREAKER, "--set", "output.interval=0.005", "--set", "parallel.rebalance_every=5",
-         "--set", "scheme.settling=20", "--until", "0.008", "--no-pictures"]  # fmt: skip
+         "--set", "scheme.settling=20", "--until", "0.016", "--no-pictures"]  # fmt: skip
 WAYS = [(2, "optimal"), (2, "static"), (3, "optimal"), (3, "static"), (4, "optimal"), (4, "static")]
 
 

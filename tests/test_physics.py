@@ -119,7 +119,9 @@ def test_momentum_of_a_drop_changes_by_its_weight_alone(scheme, dim):
 
 
 @pytest.mark.parametrize(
-    "scheme", [{}, {**CLASSIC, "scheme.gradient": "gc"}], ids=["standard", "gc"]
+    "scheme",
+    [{}, {**CLASSIC, "scheme.gradient": "gc", "scheme.shifting_strength": 0.65}],  # 0.25 a step
+    ids=["standard", "gc"],
 )
 def test_layer_of_water_keeps_its_level_and_volume(scheme):
     """3-D, periodic across, 10 layers on a bed between end walls."""
