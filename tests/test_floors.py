@@ -10,7 +10,7 @@ FLOORS = {
     6: "tank progress measures film launch terminal",
     5: "simulation record results watch output checkpoint vtkhdf snapshots overturning gauges "
     "pictures preflight preflight_text cases initial inputs restart provenance diagnostics scatter "
-    "headings panels catalogue scenes",
+    "headings panels catalogue scenes paddle_picture",
     4: "step timestep settling",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
     "deflation conjugate_gradient piston geometry filling correction obstacles "
