@@ -29,8 +29,11 @@ class Paddle:
     note : str
         The theory and its range in one line of plain words.
     facts : dict
-        What else there is to say about the motion: of a recorded one "rows", "begin [s]" and "end
-        [s]" in the time of the run, "top_speed [m/s]" and "largest_acceleration [m/s2]".
+        What else there is to say about the motion: "top_speed [m/s]" and "largest_acceleration
+        [m/s2]"; of a recorded one "rows", "begin [s]" and "end [s]" in the time of the run; of a
+        sea "components", "peak_period [s]", "spectrum_left_out", "shortest_wavelength [m]",
+        "repeats_after [s]", and of what is drawn for the run "significant_height [m]", "waves" and
+        "largest_height [m]"; of a focused or steep wave "crest [m]".
     doubts : tuple of str
         What the run may suffer from, a line each.
     """

@@ -27,7 +27,9 @@ BYTES_PER_ENTRY = 40  # of a table's row, in memory
 BYTES_PER_POINT = {"": 11.0, "velocity": 10.0, "pressure": 3.5, "number_density": 3.5}
 BYTES_PER_NUMBER = 20.0  # of an entry of a table on the disk
 LEAST_STROKE = 0.1  # spacings
-REGULAR = ("linear", "second_order", "cnoidal")
+REGULAR = ("linear", "second_order", "cnoidal", "stream_function")
+SEAS = ("irregular", "focused", "bichromatic")
+SHORTEST_WAVE = 8.0  # spacings: shorter waves are damped soon
 
 
 @dataclass(frozen=True)
@@ -48,7 +50,8 @@ class Preflight:
           "steps", "run_time [s]" (on one core), "memory [B]";
         - "frames", "frame [B]", "readings" (rows of gauges.csv), "tables [B]";
         - "wavemaker": "type", "theory" (and its range, in a line), "paddle_depth [m]", "stroke
-          [m]", "wave_height [m]" that the theory expects, and of a recorded motion its `facts`;
+          [m]", "wave_height [m]" that the theory expects (of a sea Hm0), and the `facts` of the
+          motion;
         - "wave": "height [m]", "height_over_depth" and, of regular waves, "wavelength [m]" (linear
           theory), "kh", "height_over_length", "ursell_number", "second_order_in_range"; of a
           solitary one "celerity [m/s]"; on a beach its "slope" and what becomes of the wave there:
@@ -101,12 +104,15 @@ def preflight(case):
         **_results(case, count.sum(), size),
     }
     if paddle:
-        notes += [*paddle.doubts, *_hardly_moves(case, paddle)]
+        notes += [*paddle.doubts, *_hardly_moves(case, paddle), *_unresolved(case, paddle)]
         found["wavemaker"] = _wavemaker(case, paddle)
-    waves_of = {**dict.fromkeys(REGULAR, _regular_wave), "solitary": _solitary_wave}
-    describe = waves_of.get(case.wavemaker.type)
-    if describe and paddle.stroke > 0.0 and paddle.height > 0.0:
-        found["wave"] = describe(case, paddle.height, notes)
+    kind = case.wavemaker.type
+    if paddle and paddle.stroke > 0.0 and paddle.height > 0.0:
+        if kind in (*REGULAR, *SEAS):
+            period = paddle.facts.get("peak_period [s]", case.wavemaker.period)
+            found["wave"] = _regular_wave(case, paddle.height, period, notes)
+        elif kind == "solitary":
+            found["wave"] = _solitary_wave(case, paddle.height)
     return Preflight(_plain({**found, "warnings": notes}))
 
 
@@ -219,6 +225,16 @@ def _hardly_moves(case, paddle):
         )
 
 
+def _unresolved(case, paddle):
+    shortest = paddle.facts.get("shortest_wavelength [m]", math.inf)
+    if shortest < SHORTEST_WAVE * case.particles.spacing:
+        yield (
+            f"wavemaker.band: the shortest waves of the sea, {shortest:.3g} m, are only "
+            f"{shortest / case.particles.spacing:.2g} particles long, fewer than {SHORTEST_WAVE:g} "
+            "damp them; a lower end of the band leaves them out"
+        )
+
+
 def _wavemaker(case, paddle):
     return {
         "type": case.wavemaker.type,
@@ -230,8 +246,8 @@ def _wavemaker(case, paddle):
     }
 
 
-def _regular_wave(case, height, notes):
-    depth, gravity, period = case.tank.paddle_depth, case.fluid.gravity, case.wavemaker.period
+def _regular_wave(case, height, period, notes):
+    depth, gravity = case.tank.paddle_depth, case.fluid.gravity
     length = waves.wavelength(period, depth, gravity)
     return {
         "height [m]": height,
@@ -241,15 +257,15 @@ def _regular_wave(case, height, notes):
         "height_over_length": height / length,
         "ursell_number": waves.ursell(height, length, depth),
         "second_order_in_range": breaking.madsen_in_range(height, length, depth),
-        **_beach(case, height, notes),
+        **(_beach(case, height, period, notes) if case.wavemaker.type in REGULAR else {}),
     }
 
 
-def _beach(case, height, notes):
+def _beach(case, height, period, notes):
     slope = waterline_slope(case)
     if slope <= 0.0:
         return {}
-    depth, gravity, period = case.tank.paddle_depth, case.fluid.gravity, case.wavemaker.period
+    depth, gravity = case.tank.paddle_depth, case.fluid.gravity
     deep_height = height / waves.shoaling_coefficient(period, depth, gravity)
     deep_length = waves.deep_wavelength(period, gravity)
     xi = breaking.surf_similarity(slope, deep_height, deep_length)
@@ -278,7 +294,7 @@ def _beach(case, height, notes):
     }
 
 
-def _solitary_wave(case, height, notes):
+def _solitary_wave(case, height):
     depth, gravity = case.tank.paddle_depth, case.fluid.gravity
     found = {
         "height [m]": height,

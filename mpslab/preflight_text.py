@@ -88,8 +88,27 @@ def _wavemaker(maker):
     if "rows" in maker:
         begin, end = maker["begin [s]"], maker["end [s]"]
         yield "record", f"{maker['rows']} rows, t = {begin:g} s to {end:g} s of the run"
+    yield from _sea(maker)
+    if "top_speed [m/s]" in maker:
         yield "top speed", f"{maker['top_speed [m/s]']:.3g} m/s"
         yield "largest acceleration", f"{maker['largest_acceleration [m/s2]']:.3g} m/s2"
+
+
+def _sea(maker):
+    if "significant_height [m]" in maker:
+        yield "Hm0 of the record", _mm(maker["significant_height [m]"])
+    if "largest_height [m]" in maker:
+        yield "Hmax at the piston", f"{_mm(maker['largest_height [m]'])} of {maker['waves']} waves"
+    if "spectrum_left_out" in maker:
+        yield "spectrum left out", f"{100 * maker['spectrum_left_out']:.2g} %"
+        shortest = maker["shortest_wavelength [m]"]
+        yield "components", f"{maker['components']}, down to a wave of {shortest:.3g} m"
+    if "repeats_after [s]" in maker:
+        yield "comes again after", f"{maker['repeats_after [s]']:.4g} s"
+    if "group_period [s]" in maker:
+        yield "groups", f"of {maker['group_period [s]']:.4g} s"
+    if "crest [m]" in maker:
+        yield "crest", f"{_mm(maker['crest [m]'])} above still water"
 
 
 def _mm(length):

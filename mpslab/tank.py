@@ -39,6 +39,8 @@ def _parser():
                         help="share the tank out among N processes")  # fmt: skip
     parser.add_argument("--no-pictures", action="store_true", help="draw no pictures at the end")
     parser.add_argument("--check", action="store_true", help="look at the case, run nothing")
+    parser.add_argument("--draw", metavar="PNG",
+                        help="with --check: draw the wavemaker's motion and spectrum")  # fmt: skip
     parser.add_argument("--list", action="store_true", help="list the built-in cases")
     parser.add_argument("--keys", nargs="?", const="", metavar="TABLE",
                         help="list the keys of a case, or of one table of it")  # fmt: skip
@@ -104,6 +106,8 @@ def _prepared(options, arguments, comm, tell):
     if options.keys is not None:
         tell(catalogue.text(options.keys or None))
         return None
+    if options.draw and not options.check:
+        raise ValueError(f"--draw {options.draw}: allowed together with --check only")
     changes = dict(cases.parse_set(item) for item in options.set)
     case, since = _case(options, changes)
     _check_until(options.until, since, case)
@@ -118,6 +122,10 @@ def _prepared(options, arguments, comm, tell):
     report = preflight(case)
     if options.check:
         tell(f"{case.name}: {case.title}\n{report.text()}")
+        if options.draw and comm.rank == 0:
+            from mpslab import paddle_picture
+
+            paddle_picture.draw(case, options.draw)
         return None
     for warning in report.warnings:
         tell(f"Warning: {warning}", file=sys.stderr)

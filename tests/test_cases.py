@@ -17,13 +17,16 @@ from mpslab.parameters import LISTS, TABLES, Scheme
 
 NAMES = (
     "dam_break",
+    "focused_wave",
     "hydrostatic",
+    "irregular_waves",
     "plunging_breaker",
     "regular_waves",
     "solitary_runup",
     "standing_wave",
 )
-TWO_DIMENSIONAL = {"hydrostatic", "regular_waves", "solitary_runup", "standing_wave"}
+TWO_DIMENSIONAL = {"focused_wave", "hydrostatic", "irregular_waves", "regular_waves",
+                   "solitary_runup", "standing_wave"}  # fmt: skip
 
 
 def small(**tables):
@@ -39,7 +42,7 @@ def small(**tables):
 # Built-in cases
 
 
-def test_built_in_cases_are_the_six_of_the_manual():
+def test_built_in_cases_are_those_of_the_manual():
     assert cases.names() == NAMES
 
 
@@ -132,6 +135,14 @@ def test_other_built_in_cases_hold_what_their_comments_say():
     assert regular.wavemaker.height == pytest.approx(10.0 * regular.particles.spacing)
     length = waves.wavelength(regular.wavemaker.period, regular.tank.depth, regular.fluid.gravity)
     assert regular.tank.bed[1][0] == pytest.approx(6.5 * length, rel=0.01)
+    irregular = cases.load_case("irregular_waves")
+    assert irregular.wavemaker.height == pytest.approx(10.0 * irregular.particles.spacing)
+    focused = cases.load_case("focused_wave")
+    assert 2.0 * focused.wavemaker.amplitude == pytest.approx(10.0 * focused.particles.spacing)
+    assert focused.wavemaker.place in [gauge.x for gauge in focused.gauge]
+    for case in (irregular, focused):
+        length = waves.wavelength(case.wavemaker.period, case.tank.depth, case.fluid.gravity)
+        assert case.tank.bed[1][0] > 2.0 * length
     solitary = cases.load_case("solitary_runup")
     (x0, z0), (x1, z1) = solitary.tank.bed[1:]
     assert (x1 - x0) / (z1 - z0) == pytest.approx(19.85)

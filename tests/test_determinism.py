@@ -158,10 +158,14 @@ def test_neighbour_list_is_the_same_from_fresh_and_from_used_memory():
 PAPER = {"scheme.recipe": "paper"}
 PERIODIC = {"tank.width": 0.016, "tank.periodic": True, "particles.jitter": 0.01}
 PISTON = {"wavemaker.type": "linear", "wavemaker.height": 0.004, "wavemaker.period": 0.5}
-RUNS = [PISTON, PAPER, PERIODIC, *({**PISTON, "scheme.solver": s} for s in ("scg", "piccg"))]
+SEA = {**PISTON, "wavemaker.type": "irregular", "wavemaker.order": 2}
+RUNS = [PISTON, SEA, PAPER, PERIODIC, *({**PISTON, "scheme.solver": s} for s in ("scg", "piccg"))]
 
 
-@pytest.mark.parametrize("changes", RUNS, ids=["piston", "paper", "periodic 3-D", "scg", "piccg"])
+NAMES = ["piston", "sea", "paper", "periodic 3-D", "scg", "piccg"]
+
+
+@pytest.mark.parametrize("changes", RUNS, ids=NAMES)
 def test_two_runs_of_20_steps_give_the_same_bytes(changes):
     def state():
         particles = run(flow_of(make_case(changes)), 20, 2e-4).particles

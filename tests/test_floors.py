@@ -10,7 +10,7 @@ FLOORS = {
     6: "tank progress measures film sea launch terminal",
     5: "simulation record results watch output checkpoint vtkhdf snapshots overturning "
     "pictures preflight preflight_text cases initial inputs restart provenance scatter "
-    "headings panels catalogue scenes actions analysis",
+    "headings panels catalogue scenes actions analysis paddle_picture",
     4: "step timestep settling",
     3: "gradients sources laplacians solvers stabilisers wavemakers surface walls pressure "
     "deflation conjugate_gradient solids forcings geometry filling friction census "
@@ -18,7 +18,7 @@ FLOORS = {
     2: "balance communicator headcount domain rebalance",
     1: "particles kinds neighbors stencil sparse slabs parameters scheme keys plugins bed paddle "
     "waves breaking stopwatch files journal lock tables series schedule memory columns core",
-    0: "kernels",
+    0: "kernels theory",
 }
 FLOOR_OF = {name: floor for floor, names in FLOORS.items() for name in names.split()}
 

@@ -14,7 +14,7 @@ PATH = 0.05 * np.sin(0.5 * np.pi * TIMES / END) ** 4 + 0.1234
 
 def replay(path, end=END, **given):
     blank = {"type": "file", "height": 0.0, "period": 0.0, "stroke": 0.0, "start": 0.0,
-             "offset": 0.0, "smoothing": 0.0}  # fmt: skip
+             "offset": 0.0, "smoothing": 0.0, "quantity": "displacement"}  # fmt: skip
     return file.make(SimpleNamespace(**{**blank, "file": path, **given}), 0.3, 9.81, end)
 
 

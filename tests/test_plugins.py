@@ -53,7 +53,8 @@ def test_name_far_from_all_others_gets_no_suggestion(shapes, name):
 
 
 def test_wavemakers_are_all_found():
-    expected = {"still", "linear", "second_order", "cnoidal", "solitary", "file"}
+    expected = {"still", "linear", "second_order", "cnoidal", "solitary", "file", "irregular",
+                "focused", "bichromatic", "stream_function"}  # fmt: skip
     assert expected <= set(plugins.names("wavemakers"))
 
 

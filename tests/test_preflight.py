@@ -39,7 +39,7 @@ def counted(case):
 @pytest.mark.parametrize("name", cases.names())
 @pytest.mark.parametrize("changes", [{}, {"particles.bed": "staircase"}, {"tank.width": 0.0}])
 def test_particles_are_counted_as_they_are_laid_out(name, changes):
-    if name in ("regular_waves", "solitary_runup"):
+    if name in ("regular_waves", "solitary_runup", "irregular_waves", "focused_wave"):
         changes = {**changes, "particles.spacing": 0.004}
     case = cases.load_case(name, changes)
     real = laid_out(case)

@@ -17,7 +17,8 @@ REST = {**LONG, "particles.jitter": 0.05, "scheme.gradient": "cmps", "scheme.sou
         "scheme.stabiliser": ["collision", "shifting", "ds"], "fluid.viscosity": 1e-3}  # fmt: skip
 MARKED = {**REST, "scheme.surface": "marked", "scheme.projection": "predicted",
           "scheme.gradient": "gc", "scheme.source": "mixed"}  # fmt: skip
-CASES = {"periodic": PERIODIC, "paper": PAPER, "rest": REST, "marked": MARKED}
+SEA = {**PISTON, "wavemaker.type": "irregular", "wavemaker.height": 0.006, "wavemaker.order": 2}
+CASES = {"sea": SEA, "periodic": PERIODIC, "paper": PAPER, "rest": REST, "marked": MARKED}
 SOLVERS = ["scg", "piccg", "deflated"]
 DRY = {"tank.length": 0.4, "tank.depth": 0.04, "parallel.balance": "static",
        "water": [{"from": [0.0, 0.0, 0.0], "to": [0.06, 0.0, 0.04]}]}  # fmt: skip

@@ -183,7 +183,7 @@ def test_instruments_can_neither_come_nor_go(run):
 @pytest.mark.parametrize(
     "old, new, key",
     [
-        ("seed = 0", "seed = 3", "particles.seed = 3"),
+        ("jitter = 0.001", "jitter = 0.002", "particles.jitter = 0.002"),
         ("depth = 0.04", "depth = 0.05", "tank.depth = 0.05"),
         ('name = "g"', 'name = "h"', "gauge.0.name"),
     ],
@@ -299,3 +299,18 @@ def test_piston_that_would_run_into_an_obstacle_later_is_refused(tmp_path):
 def test_case_error_of_a_change_is_that_of_the_key(run):
     with pytest.raises(CaseError, match="unknown key"):
         Simulation.resume(run, {"time.ent": 3.0})
+
+
+@pytest.mark.parametrize("name", ["irregular", "focused", "bichromatic", "stream_function"])
+def test_sea_goes_on_as_if_it_had_had_the_later_end(tmp_path, name):
+    sea = {
+        "wavemaker.type": name, "wavemaker.height": 0.004, "wavemaker.period": 0.5,
+        "wavemaker.second_period": 0.4, "wavemaker.place": 0.1, "wavemaker.file": "",
+        "particles.spacing": 0.008, "time.end": 0.06, "output.checkpoint": 0.03,
+    }  # fmt: skip
+    if name != "stream_function":
+        sea["wavemaker.order"] = 2
+    Simulation(make_case(tmp_path, {**sea, "time.end": 0.12}), tmp_path / "whole").run()
+    Simulation(make_case(tmp_path, sea), tmp_path / "run").run()
+    Simulation.resume(tmp_path / "run", {"time.end": 0.12}).run()
+    assert_same_results(tmp_path / "run", tmp_path / "whole")

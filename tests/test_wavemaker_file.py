@@ -10,7 +10,7 @@ from mpslab.wavemakers import file
 
 def replay(name, end=3.0, **given):
     blank = {"type": "file", "height": 0.0, "period": 0.0, "stroke": 0.0, "start": 0.0,
-             "offset": 0.0, "smoothing": 0.0}  # fmt: skip
+             "offset": 0.0, "smoothing": 0.0, "quantity": "displacement"}  # fmt: skip
     return file.make(SimpleNamespace(**{**blank, "file": name, **given}), 0.04, 9.81, end)
 
 

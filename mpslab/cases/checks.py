@@ -24,7 +24,10 @@ MOST = {"water": 100, "obstacle": 100, "gate": 100, "gauge": 1000, "probe": 1000
 MOST_POINTS, MOST_PICTURES = 2000, 1000
 
 # Theories in which wavemaker.height is the height of the wave.
-WAVES = ("linear", "second_order", "cnoidal", "solitary")
+WAVES = (
+    "linear", "second_order", "cnoidal", "solitary", "stream_function", "irregular", "focused",
+    "bichromatic",
+)  # fmt: skip
 
 # Radius [spacings] up to which walls that are solved for hold the water: at 2.3 the hydrostatic
 # pressure of 20 layers is 0.97 of what it should be in 2-D, 0.95 in 3-D, at 3.1 0.75.
@@ -216,9 +219,14 @@ def _check_motion(case):
     turns = maker.type in ("linear", "second_order") or maker.first == "forward"
     rule = f"'forward' for wavemaker.type = {maker.type!r}"
     require(turns, "wavemaker.first", maker.first, rule)
-    if maker.type == "file":
+    if maker.type == "file" or (
+        maker.type in ("irregular", "focused") and maker.spectrum == "file"
+    ):
         exists = bool(maker.file) and Path(maker.file).is_file()
         require(exists, "wavemaker.file", maker.file, "a CSV file that exists")
+    inside = maker.type != "focused" or 0.0 < maker.place <= tank.length
+    rule = f"> 0 and <= tank.length = {tank.length:g} m, where the wave has its focus"
+    require(inside, "wavemaker.place", maker.place, rule)
     if initial.type == "standing_wave":
         require(
             0.0 < initial.amplitude < tank.paddle_depth,

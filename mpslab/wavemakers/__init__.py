@@ -1,10 +1,9 @@
 """Wavemakers: each module holds one, `make(wavemaker, depth, gravity, end) -> Paddle`.
 
-`wavemaker` has the attributes type, height [m], period [s], stroke [m], first ("forward" or
-"backward"), start [s], file, function, offset [s] and smoothing [s], each 0 or "" where the theory
-does not use it; depth [m] is the still water depth at the paddle, gravity is in m/s2 and end [s] is
-the end of the run. A module raises ValueError, naming the key, where its theory does not hold.
-Every motion starts from rest at X = 0 without a jump in velocity.
+`wavemaker` has the attributes of `mpslab.parameters.Wavemaker`; depth [m] is the still water depth
+at the paddle, gravity is in m/s2 and end [s] is the end of the run, on which the motion does not
+depend. A module raises ValueError, naming the key, where its theory does not hold. Every motion
+starts from rest at X = 0 without a jump in velocity.
 
 A paddle whose motion follows from what happens in the run has methods of its own for `advance`,
 `state` and `restore` (`mpslab.paddle.Paddle`).

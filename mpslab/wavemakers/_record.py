@@ -1,4 +1,4 @@
-"""Reads the record of a piston: two columns of numbers, as loggers and spreadsheets write them."""
+"""Reads two columns of numbers, as loggers and spreadsheets write them: a motion, or a spectrum."""
 
 import csv
 import math
@@ -17,22 +17,28 @@ SEPARATORS = (";", "\t", ",", None)  # None: blanks
 NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?", re.IGNORECASE)
 # What stands for a missing number, and is no word of a heading.
 MISSING = ("nan", "inf", "infinity", "na", "n/a", "null", "none")
-# Units that a heading may name, other than those that the columns must have.
-NOT_SECONDS = ("ms", "msec", "us", "min", "minutes", "h", "hours")
-NOT_METRES = ("mm", "cm", "dm", "km", "um", "ft", "feet", "inch", "inches")
+# Units that a heading may name, by the one that the column must have.
+OTHERS = {
+    "s": ("ms", "msec", "us", "min", "minutes", "h", "hours"),
+    "m": ("mm", "cm", "dm", "km", "um", "ft", "feet", "inch", "inches"),
+    "Hz": ("rad", "mhz", "khz", "min"),
+    "m2/Hz": ("mm", "cm", "ft", "rad"),
+}
+MOTION = (("time", "s"), ("displacement", "m"))
 
 
 @dataclass(frozen=True)
 class Record:
-    """A motion as recorded.
+    """Two columns as recorded.
 
     Attributes
     ----------
     where : str
         Key and file, to begin a message with.
-    times, values : (n,) float64 [s], [m]
-    digit : float [m]
-        Value of the last digit that displacements are written with.
+    times, values : (n,) float64
+        The columns; of a motion in s and m.
+    digit : float
+        Value of the last digit that the second column is written with.
     line : int
         Of the file, with the first row.
     """
@@ -44,11 +50,12 @@ class Record:
     line: int
 
 
-def read(path) -> Record:
+def read(path, columns=MOTION) -> Record:
     """Read a record of time [s] and displacement [m], with or without a line of headings.
 
-    Columns are parted by commas, semicolons, tabs or blanks. A decimal comma may stand for the
-    point, throughout the file, where commas do not part the columns.
+    `columns` names other ones, (name, unit) each. They are parted by commas, semicolons, tabs or
+    blanks. A decimal comma may stand for the point, throughout the file, where commas do not part
+    the columns.
 
     Raises ValueError with file and line if the file is missing or cannot be read, has fewer than
     two rows or too many, names other units, has a value that is not a finite number, or
@@ -59,20 +66,21 @@ def read(path) -> Record:
     separator = _separator(lines)
     heading = _cells(lines[0][1].lstrip("# "), separator) if lines else []
     if heading and _is_heading(heading):
-        _require_units(heading, f"{where}, line {lines[0][0]}")
+        _require_units(heading, columns, f"{where}, line {lines[0][0]}")
         lines = lines[1:]
     numbers, digits, mark = array("d"), -300.0, ""
     for line, text in lines:
         cells = _cells(text, separator)
         found = "." * any("." in cell for cell in cells) + "," * any("," in cell for cell in cells)
         mark = mark or found[:1]
-        numbers.extend(_two_numbers(cells, text, found in ("", mark), f"{where}, line {line}"))
+        alike = found in ("", mark)
+        numbers.extend(_two_numbers(cells, text, alike, columns, f"{where}, line {line}"))
         digits = max(digits, _digits(cells[1]))
     times, values = np.array(numbers).reshape(-1, 2).T
     if len(times) < 2:
         raise ValueError(f"{where}: has {len(times)} rows of numbers; must have 2 or more")
     values = np.where(np.abs(values) < FINEST, 0.0, values)
-    _require_increasing(times, [line for line, _ in lines], where)
+    _require_increasing(times, [line for line, _ in lines], columns[0], where)
     return Record(where, times, values, 10.0**-digits, lines[0][0])
 
 
@@ -127,10 +135,10 @@ def _is_heading(cells):
     )
 
 
-def _require_units(cells, where):
-    for cell, unit, others in zip(cells, ("s", "m"), (NOT_SECONDS, NOT_METRES), strict=False):
+def _require_units(cells, columns, where):
+    for cell, (_, unit) in zip(cells, columns, strict=False):
         words = re.findall(r"[^\W\d_]+", cell.lower().replace("µ", "u"))
-        found = [word for word in others if word in words]
+        found = [word for word in OTHERS[unit] if word in words]
         if words[-1:] == ["in"] and unit == "m":
             found = ["in"]
         if found:
@@ -140,16 +148,18 @@ def _require_units(cells, where):
             )
 
 
-def _two_numbers(cells, text, alike, where):
+def _two_numbers(cells, text, alike, columns, where):
     """The numbers of a row, with one decimal mark and the same as in the rows before."""
     good = len(cells) == 2 and alike and all(map(NUMBER.fullmatch, cells))
     numbers = [float(cell.replace(",", ".")) for cell in cells] if good else [math.nan]
     if not all(abs(number) <= LARGEST for number in numbers):
         shown = text if len(text) <= 60 else text[:57] + "..."
+        (first, unit), (second, other) = columns
         raise ValueError(
-            f"{where}: {shown!r} must be two finite numbers, time [s] and displacement [m], parted "
-            "by a comma, semicolon, tab or blanks, with decimal points throughout, or with decimal "
-            "commas throughout where no comma parts them; a heading above them holds words only"
+            f"{where}: {shown!r} must be two finite numbers, {first} [{unit}] and {second} "
+            f"[{other}], parted by a comma, semicolon, tab or blanks, with decimal points "
+            "throughout, or with decimal commas throughout where no comma parts them; a heading "
+            "above them holds words only"
         )
     return numbers
 
@@ -161,9 +171,10 @@ def _digits(cell):
     return min(max(decimals - float(exponent or 0), -300.0), 300.0)
 
 
-def _require_increasing(times, lines, where):
+def _require_increasing(times, lines, column, where):
+    name, unit = column
     for i in np.flatnonzero(np.diff(times) < CLOSEST)[:1] + 1:
         raise ValueError(
-            f"{where}, line {lines[i]}: time = {times[i]:g} s: must be above that of the row"
-            f" before, {times[i - 1]:g} s"
+            f"{where}, line {lines[i]}: {name} = {times[i]:g} {unit}: must be above that of the row"
+            f" before, {times[i - 1]:g} {unit}"
         )

@@ -1,10 +1,10 @@
-"""Paddle that replays a recorded displacement."""
+"""Paddle that replays a recorded displacement, or makes a recorded surface elevation."""
 
 import numpy as np
 import scipy
 
 from mpslab import paddle
-from mpslab.wavemakers import _record
+from mpslab.wavemakers import _elevation, _record
 
 LATE = 0.1  # share of the run that may pass before the record begins
 SHORT = 0.5  # share of the run that it has to cover
@@ -16,6 +16,8 @@ FEW = 20  # rows: fewer were drawn by hand, and their digits mean what they say
 def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     """Paddle with the displacement of a file, wavemaker.file (`_record.read` has its form).
 
+    With wavemaker.quantity = "elevation" it makes what the file holds (`_elevation.make`).
+
     The run begins at wavemaker.offset of the record's time, and displacement counts from its value
     there. Between rows the motion is a monotone cubic (Fritsch & Carlson 1980), which never goes
     beyond the rows, and it leaves the first row and reaches the last one at rest; before and after,
@@ -24,8 +26,11 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     Raises ValueError as `_record.read` does, or if the record lies outside of the run, begins below
     0 s without an offset, or is too short for the smoothing.
     """
-    record = _record.read(wavemaker.file)
+    record = _record.read(wavemaker.file, _elevation.COLUMNS if _is_elevation(wavemaker) else
+                          _record.MOTION)  # fmt: skip
     _require_overlap(record, wavemaker, end)
+    if _is_elevation(wavemaker):
+        return _elevation.make(record, wavemaker, depth, gravity, end)
     times, values = record.times - wavemaker.offset, record.values
     slopes = scipy.interpolate.PchipInterpolator(times, values).derivative()(times)
     if wavemaker.smoothing > 0.0:
@@ -58,6 +63,10 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     )
     doubts = tuple(doubt for doubt in doubts if doubt)
     return paddle.from_motion(motion, samples, 0.0, note, whole, facts, doubts)
+
+
+def _is_elevation(wavemaker):
+    return wavemaker.quantity == "elevation"
 
 
 def _smoothed(record, width):

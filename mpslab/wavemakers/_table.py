@@ -1,0 +1,121 @@
+"""A motion as a table: cheap in every step however many waves it is made of."""
+
+import numpy as np
+
+POINTS = 16  # of the table to the shortest period: quintics between them are right to 1e-7
+
+
+class Table:
+    """Quintics between even times, which pass through place, velocity and acceleration there.
+
+    Its velocity and acceleration are the derivatives of what it gives for the place, and have no
+    jumps.
+
+    Parameters
+    ----------
+    step : float [s]
+    place, velocity, acceleration : (n,) float64
+        At the times i step, i from 0 on.
+    cyclic : bool
+        Whether all comes again after n steps; otherwise the ends hold before and after.
+    """
+
+    def __init__(self, step, place, velocity, acceleration, cyclic):
+        self.step, self.cyclic = step, cyclic
+        if cyclic:
+            place, velocity, acceleration = (
+                np.append(part, part[0]) for part in (place, velocity, acceleration)
+            )
+        start, v, a = place[:-1], velocity[:-1] * step, acceleration[:-1] * step**2
+        way = np.diff(place) - v - 0.5 * a
+        gain = np.diff(velocity) * step - a
+        bend = np.diff(acceleration) * step**2
+        self.terms = np.array([
+            start, v, 0.5 * a, 10.0 * way - 4.0 * gain + 0.5 * bend,
+            7.0 * gain - 15.0 * way - bend, 6.0 * way - 3.0 * gain + 0.5 * bend,
+        ])  # fmt: skip
+
+    @property
+    def length(self):
+        """Time that it covers [s]."""
+        return self.terms.shape[1] * self.step
+
+    def __call__(self, t, derivative=0):
+        """Place at t, or velocity (1) or acceleration (2); t: float or (n,) float64 [s]."""
+        count = self.terms.shape[1]
+        steps = np.divide(t, self.step)
+        steps = np.mod(steps, count) if self.cyclic else np.clip(steps, 0.0, count)
+        at = np.minimum(np.asarray(steps, int), count - 1)
+        s, terms = steps - at, self.terms[:, at]
+        for _ in range(derivative):
+            terms = np.array([i * term for i, term in enumerate(terms)][1:]) / self.step
+        found = terms[-1]
+        for term in terms[-2::-1]:
+            found = term + s * found
+        return found
+
+
+def of_series(series, step):
+    """Table of the real part of the sum of a_i e^{i omega_i t}, omega_i = i step.
+
+    Parameters
+    ----------
+    series : (n,) complex128
+        Amplitudes a_i; the first, of what does not change, does not count.
+    step : float [rad/s]
+    """
+    points = POINTS * len(series)
+    rates = np.arange(len(series)) * step
+    series = np.append(0.0, series[1:])
+    parts = [np.fft.irfft((1j * rates) ** n * series, points) * (0.5 * points) for n in range(3)]
+    return Table(2.0 * np.pi / step / points, *parts, cyclic=True)
+
+
+class Faded:
+    """A motion, faded in from rest, and faded out again if it ends.
+
+    Parameters
+    ----------
+    motion : function (t, derivative=0)
+        Such as `Table`.
+    rise : float [s]
+        Time in which it fades in, from `begin`.
+    begin, end : float [s]
+        Before and after it stands still at 0; an infinite end for none.
+    fall : float [s]
+        Time in which it fades out, up to the end.
+    """
+
+    def __init__(self, motion, rise, begin=0.0, end=np.inf, fall=0.0):
+        self.motion, self.begin, self.end = motion, begin, end
+        self.rise, self.fall = rise, fall
+
+    def __call__(self, t, derivative=0):
+        """Place at t, or velocity (1) or acceleration (2); t: float or (n,) float64 [s]."""
+        orders = range(derivative + 1)
+        parts = _product(
+            [self.motion(t, n) for n in orders],
+            [_fade((np.asarray(t) - self.begin) / self.rise, n) / self.rise**n for n in orders],
+        )
+        if self.fall > 0.0:
+            left = (self.end - np.asarray(t)) / self.fall
+            parts = _product(parts, [_fade(left, n) / (-self.fall) ** n for n in orders])
+        return parts[derivative]
+
+
+def _product(one, other):
+    """Derivatives of a product, from those of its factors: orders 0 to 2 at most."""
+    times = ((1,), (1, 1), (1, 2, 1))
+    return [
+        sum(n * one[i] * other[order - i] for i, n in enumerate(times[order]))
+        for order in range(len(one))
+    ]
+
+
+def _fade(s, derivative):
+    """s^2 (3 - 2 s) from s = 0 to 1, or its derivative by s; level before and after."""
+    inside = (s > 0.0) & (s < 1.0)
+    s = np.clip(s, 0.0, 1.0)
+    if derivative == 0:
+        return s * s * (3.0 - 2.0 * s)
+    return np.where(inside, 6.0 * s * (1.0 - s) if derivative == 1 else 6.0 - 12.0 * s, 0.0)

@@ -1,0 +1,42 @@
+"""A picture of what the wavemaker will do."""
+
+import numpy as np
+import pytest
+
+from mpslab import cases, paddle_picture, tank, waves
+from mpslab.keys import CaseError
+from mpslab.preflight import preflight
+
+
+def test_spectrum_holds_the_variance_of_the_wave():
+    """a^2 / 2 of a regular wave, in one peak at its frequency."""
+    times = np.linspace(0.0, 50.0, 5001)
+    ratio = waves.biesel_stroke_ratio(waves.wave_number(1.0, 0.3, 9.81) * 0.3)
+    place = 0.02 / ratio * np.sin(2.0 * np.pi * times)
+    frequency, density = paddle_picture.spectrum(times, place, 0.3, 9.81)
+    assert frequency[np.argmax(density)] == pytest.approx(1.0, abs=0.02)
+    assert np.sum(density) * frequency[0] == pytest.approx(0.02**2 / 2.0, rel=0.01)
+
+
+@pytest.mark.parametrize("name", ["irregular_waves", "focused_wave", "solitary_runup"])
+def test_check_draws_a_picture(name, tmp_path, capsys):
+    path = tmp_path / "maker.png"
+    assert tank.main([name, "--check", "--draw", str(path)]) == 0
+    assert path.stat().st_size > 10_000
+    assert "stroke" in capsys.readouterr().out
+
+
+def test_where_there_is_nothing_to_draw_it_is_refused(tmp_path, capsys):
+    assert tank.main(["dam_break", "--check", "--draw", str(tmp_path / "a.png")]) == 2
+    assert "wavemaker.type = 'none'" in capsys.readouterr().err
+    assert tank.main(["irregular_waves", "--draw", str(tmp_path / "a.png")]) == 2
+    assert "together with --check only" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_sea_that_is_too_fine_for_the_particles_brings_a_warning():
+    fine = cases.load_case("irregular_waves", {"wavemaker.band": [0.5, 8.0]})
+    assert any("the shortest waves of the sea" in line for line in preflight(fine).warnings)
+    assert not preflight(cases.load_case("irregular_waves")).warnings
+    with pytest.raises(CaseError, match=r"^wavemaker\.file = '': must be a CSV file that exists"):
+        cases.load_case("irregular_waves", {"wavemaker.spectrum": "file"})
