@@ -6,9 +6,13 @@ from test_slabs import system_by_slab
 from test_solvers import as_matrix
 
 from mpslab import deflation
-from mpslab.deflation import Deflation
+from mpslab.conjugate_gradient import by_diagonal, conjugate_gradient
+from mpslab.deflation import Band, Deflation, Nested
 from mpslab.kernels import coarse
 from mpslab.solvers import deflated, scg
+
+
+TOLERANCE = 1e-8
 
 
 def members(made):
@@ -26,7 +30,7 @@ def system():
 
 
 def test_rows_of_a_group_are_in_one_slab_and_one_cell(system):
-    made = Deflation(system)
+    made = Deflation(system, TOLERANCE)
     slab = np.repeat(np.arange(len(system.first) - 1), np.diff(system.first))
     places = {(s, *c) for s, c in zip(slab.tolist(), system.cell.tolist(), strict=True)}
     for g in range(made.count):
@@ -37,7 +41,7 @@ def test_rows_of_a_group_are_in_one_slab_and_one_cell(system):
 
 
 def test_projection_leaves_no_sum_in_any_group(system):
-    made = Deflation(system)
+    made = Deflation(system, TOLERANCE)
     z = members(made)
     r = np.random.default_rng(6).normal(size=len(system))
     left = r.copy()
@@ -50,23 +54,68 @@ def test_projection_leaves_no_sum_in_any_group(system):
 
 
 def test_pressure_that_is_constant_in_each_group_is_found_at_once(system):
-    made = Deflation(system)
+    made = Deflation(system, TOLERANCE)
     exact = np.random.default_rng(7).normal(size=made.count)[made.group]
     x = np.zeros(len(system))
     made.complete(x, as_matrix(system) @ exact)
     np.testing.assert_allclose(x, exact, rtol=1e-9)
 
 
-def test_cells_are_merged_until_the_factor_is_cheap(system, monkeypatch):
+@pytest.fixture
+def nested(system, monkeypatch):
+    """A deflation whose coarse system is solved by iterations, with a direct one below it."""
     system.cell[:, 0] = np.random.default_rng(8).integers(0, 9, len(system))
-    before = Deflation(system)
+    monkeypatch.setattr(deflation, "WORK", 1e9)
+    direct = Deflation(system, TOLERANCE)
     monkeypatch.setattr(deflation, "WORK", 8)
-    made = Deflation(system)
-    cost, half = 8 * len(system), made.band.shape[1] - 1
-    assert made.count * half**2 <= cost < before.count * (before.band.shape[1] - 1) ** 2
+    made = Deflation(system, TOLERANCE)
+    assert isinstance(direct.coarse, Band) and isinstance(made.coarse, Nested)
+    return direct, made
+
+
+def test_factor_is_cheap_at_the_level_that_is_solved_directly(nested, system):
+    made, cost = nested[1], 8 * len(system)
+    assert np.prod(nested[0].coarse.band.shape) * nested[0].coarse.band.shape[1] > cost
+    while isinstance(made.coarse, Nested):
+        below = made.coarse.deflation
+        assert below.count < made.count
+        made = below
+    assert made.count * (made.coarse.band.shape[1] - 1) ** 2 <= cost
+
+
+def test_nested_system_is_the_coarse_one(nested, system):
+    z = members(nested[1])
+    exact = z.T @ as_matrix(system).toarray() @ z
+    np.testing.assert_allclose(
+        as_matrix(nested[1].coarse.system).toarray(), exact, rtol=1e-12, atol=1e-12
+    )
+
+
+def test_nested_deflation_takes_out_what_a_direct_one_does(nested, system):
     b = np.random.default_rng(8).normal(size=len(system))
-    made.project(b)
-    np.testing.assert_allclose(members(made).T @ b, 0.0, atol=1e-12)
+    p, q, left = b.copy(), [b.copy(), b.copy()], [b.copy(), b.copy()]
+    products = []
+    for made, at, r in zip(nested, q, left, strict=True):
+        made.project(r)
+        products.append(made.project_product(p, at))
+    scale = np.linalg.norm(b)
+    np.testing.assert_allclose(members(nested[1]).T @ left[1], 0.0, atol=TOLERANCE * scale)
+    np.testing.assert_allclose(left[1], left[0], atol=TOLERANCE * scale)
+    np.testing.assert_allclose(q[1], q[0], atol=TOLERANCE * scale)
+    assert products[1] == pytest.approx(products[0], rel=1e-6)
+
+
+def test_nested_deflation_needs_as_many_iterations(nested, system):
+    reports, found = [], []
+    for made in nested:
+        x = np.zeros(len(system))
+        reports.append(conjugate_gradient(
+            system, x, by_diagonal(system), TOLERANCE, 500, deflation=made
+        ))  # fmt: skip
+        found.append(x)
+    assert reports[1].converged
+    assert abs(reports[1].iterations - reports[0].iterations) <= 1
+    np.testing.assert_allclose(found[1], found[0], atol=1e-6 * np.abs(found[0]).max())
 
 
 def test_neighbours_around_a_periodic_tank_are_near_in_the_band():

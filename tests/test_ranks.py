@@ -30,6 +30,7 @@ def steps(changes, solver="scg", count=10):
     return ["steps", {**changes, "scheme.solver": solver}, count, DT]
 
 
+NESTED = ["nested", PERIODIC, 10, DT]
 EVERYWHERE = [steps(PISTON, solver, 15) for solver in SOLVERS]
 CALLS = {
     1: EVERYWHERE,
@@ -37,7 +38,7 @@ CALLS = {
     3: [
         *EVERYWHERE,
         *(steps(changes, solver) for changes in CASES.values() for solver in SOLVERS),
-        steps(PISTON), steps(STATIC), ["sums"],
+        steps(PISTON), steps(STATIC), ["sums"], NESTED,
     ],
     4: [
         *EVERYWHERE,
@@ -72,6 +73,14 @@ def test_steps_have_the_same_bytes_and_iterations_on_1_to_4_ranks(solver):
 def test_every_part_of_a_step_has_the_same_bytes_on_3_ranks(name, solver):
     call = steps(CASES[name], solver)
     assert on(3, call) == alone(*call)
+
+
+def test_nested_deflation_has_the_same_bytes_and_as_many_iterations_on_3_ranks():
+    one, direct = alone(*NESTED), alone(*steps(PERIODIC, "deflated"))
+    assert on(3, NESTED) == one
+    assert one["position"] != direct["position"]
+    assert all(abs(a - b) <= 1 for a, b in
+               zip(one["iterations"], direct["iterations"], strict=True))  # fmt: skip
 
 
 def test_static_cuts_give_the_same_bytes_as_the_best_ones():

@@ -3,10 +3,11 @@
 With Z the (rows, groups) matrix that is one where a row belongs to a group and zero elsewhere, A Z is
 kept in compressed rows and Z^T A Z as a band: band[g, half + h - g] couples g to h <= g.
 """
+from cython cimport floating
 from libc.math cimport sqrt
 
 
-def by_group(const int[::1] row, const int[::1] column, const float[::1] value,
+def by_group(const int[::1] row, const int[::1] column, const floating[::1] value,
              const double[::1] diagonal, const int[::1] group, Py_ssize_t begin, Py_ssize_t end,
              int[::1] place, int[::1] start, int[::1] member, double[::1] entry):
     """A Z in the rows from begin to end: the couplings of each row, summed over the groups.
@@ -51,6 +52,40 @@ def couple(const int[::1] start, const int[::1] member, const double[::1] entry,
             for k in range(start[i], start[i + 1]):
                 if member[k] <= g:
                     band[g, half + member[k] - g] += entry[k]
+
+
+def condense(const int[::1] start, const int[::1] member, const double[::1] entry,
+             const int[::1] rows, const int[::1] first, int begin, int end, int[::1] place,
+             int[::1] row, int[::1] column, double[::1] value, double[::1] diagonal):
+    """Z^T A Z in compressed rows, those of the groups from begin to end; the diagonal by itself.
+
+    rows : rows of A, group by group; first : (groups + 1,) where those of a group begin
+    place : (groups,) scratch, all -1
+    row : (groups + 1,), column, value, diagonal : out
+
+    Returns the number of entries.
+    """
+    cdef Py_ssize_t k, n
+    cdef int g, h, i, total = 0
+    with nogil:
+        for g in range(begin, end):
+            row[g] = total
+            for n in range(first[g], first[g + 1]):
+                i = rows[n]
+                for k in range(start[i], start[i + 1]):
+                    h = member[k]
+                    if h == g:
+                        diagonal[g] += entry[k]
+                        continue
+                    if place[h] < row[g]:
+                        place[h] = total
+                        column[total] = h
+                        value[total] = 0.0
+                        total += 1
+                    value[place[h]] += entry[k]
+        for g in range(end, row.shape[0]):
+            row[g] = total
+    return total
 
 
 def factorise(double[:, ::1] band, double[::1] inverse):

@@ -1,7 +1,8 @@
 """Sparse rows: product, incomplete Cholesky factor, substitution."""
+from cython cimport floating
 
 
-def multiply(const int[::1] row, const int[::1] column, const float[::1] value,
+def multiply(const int[::1] row, const int[::1] column, const floating[::1] value,
              const double[::1] diagonal, const double[::1] x, double[::1] out,
              Py_ssize_t begin=0, Py_ssize_t end=-1):
     """out = A x in the rows from begin to end (-1: all); A is symmetric.
