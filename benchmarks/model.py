@@ -106,6 +106,9 @@ def _cell(place, case):
 def _groups(slab, up, aside, water):
     """Groups of each slab, (slabs,) int, and half the band, as the `Deflation` of a step has them.
 
+    Where the factor would cost too much, cells are merged here, as they were before the deflation
+    had a second level: what the model says of such a tank is too slow.
+
     Parameters
     ----------
     slab, up : (n,) int

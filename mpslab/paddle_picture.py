@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from mpslab.pictures import STYLE
-from mpslab.piston import make_paddle
+from mpslab.solids.piston import make_paddle
 from mpslab.theory import dispersion, spectra
 
 SAMPLES = 40  # to the shortest period

@@ -49,15 +49,13 @@ def test_the_tank_has_the_particles_and_the_slabs_of_the_program(tank):
     np.testing.assert_array_equal(tank.water, np.bincount(water, minlength=count))
 
 
-@pytest.mark.parametrize("work", [deflation.WORK, 1])
-def test_the_tank_has_the_groups_of_a_step(monkeypatch, work):
+def test_the_tank_has_the_groups_of_a_step(monkeypatch):
     made = []
 
-    def keep(system):
-        made.append(deflation.Deflation(system))
+    def keep(system, tolerance):
+        made.append(deflation.Deflation(system, tolerance))
         return made[-1]
 
-    monkeypatch.setattr(deflation, "WORK", work)
     monkeypatch.setattr(deflated, "Deflation", keep)
     tank = model.make_tank(SPACING)
     Simulation(load_case("plunging_breaker", LATTICE)).advance()
@@ -65,8 +63,8 @@ def test_the_tank_has_the_groups_of_a_step(monkeypatch, work):
     first = real.system.first
     groups = [len(set(real.group[a:b].tolist())) for a, b in pairwise(first.tolist())]
     assert tank.groups.tolist() == groups
-    assert max(groups) == (6 if work > 1 else 2)
-    assert tank.half == real.band.shape[1] - 1
+    assert max(groups) == 6
+    assert tank.half == real.coarse.band.shape[1] - 1
 
 
 def test_one_rank_costs_what_was_measured_on_one(tank):
