@@ -107,9 +107,11 @@ class Passes:
         return np.stack([*parts, self.near.number_density], axis=1)
 
     def viscosity(self):
-        flow = self.flow
-        return friction.acceleration(self.near, flow.laplacian_stencil, flow.case.fluid,
-                                     flow.case.scheme, id)  # fmt: skip
+        flow, scheme = self.flow, self.flow.case.scheme
+        eddy = friction.eddies(self.near, scheme, id)
+        return friction.acceleration(
+            self.near, flow.laplacian_stencil, eddy, flow.case.fluid, scheme
+        )
 
     def adjoint(self):
         return self.near.adjoint_divergence(self.flow.particles.velocity)

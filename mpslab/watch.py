@@ -69,6 +69,8 @@ def _may_be_lost(case, particles, face):
     suspect |= z < max((height for _, height in case.tank.bed), default=0.0)
     if case.tank.width > 0.0 and not case.tank.periodic:
         suspect |= (y < 0.0) | (y > rows_across(case) * case.particles.spacing)
+    if case.tank.lid:
+        suspect |= z > case.tank.height
     if case.obstacle:
         suspect[:] = True
     return suspect & particles.fluid

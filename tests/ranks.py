@@ -244,7 +244,7 @@ def struck(how, folder):
             os.kill(os.getpid(), signal.SIGKILL)
 
     rebalance.load = strike
-    sys.exit(tank.main([*SMALL, "--until", "0.015", "--out", folder]))
+    sys.exit(tank.main([*SMALL, "--until", "0.02", "--out", folder]))
 
 
 def launcher():

@@ -11,7 +11,6 @@ from mpslab.deflation import Band, Deflation, Nested
 from mpslab.kernels import coarse
 from mpslab.solvers import deflated, scg
 
-
 TOLERANCE = 1e-8
 
 

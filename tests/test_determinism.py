@@ -122,7 +122,7 @@ def test_sources_do_not_depend_on_the_address(name):
 def test_stabilisers_do_not_depend_on_the_address(name):
     def moved(by):
         near = placed(by)
-        plugins.load("stabilisers", name).stabilise(near, 0.1, scheme())
+        plugins.load("stabilisers", name).stabilise(near, 0.1, 0.1, scheme())
         assert np.any(near.particles.position != near.position[:, :3])
         return bytes_of(near.particles.position, near.particles.velocity)
 
@@ -132,7 +132,9 @@ def test_stabilisers_do_not_depend_on_the_address(name):
 def test_friction_does_not_depend_on_the_address():
     def drag(by):
         near, keys = placed(by), Scheme(smagorinsky=0.1)
-        return bytes_of(friction.acceleration(near, near.stencil, Fluid(viscosity=1.0), keys, id))
+        eddy = friction.eddies(near, keys, id)
+        fluid = Fluid(viscosity=1.0)
+        return bytes_of(friction.acceleration(near, near.stencil, eddy, fluid, keys))
 
     assert len({drag(by) for by in (0, *SHIFTS)}) == 1
 

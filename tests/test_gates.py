@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from ranks import alone, start
 from scipy.spatial import cKDTree
-from tanks import CLASSIC, closest, flow_of, make_case, number_density_over_n0, run
+from tanks import CLASSIC, SINGLE, closest, flow_of, make_case, number_density_over_n0, run
 
 from mpslab import geometry, load_case
 from mpslab.cases import dumps
@@ -70,7 +70,7 @@ def test_lattice_goes_on_from_the_water_into_the_gate(changes):
     particles = geometry.build_particles(case)
     assert np.count_nonzero(is_gate(particles)) == 4 * 20 * (10 if changes else 1)
     below = particles.fluid & (particles.position[:, 2] < 0.01 - 2.0 * D0)
-    np.testing.assert_allclose(number_density_over_n0(case, particles)[below], 1.0, rtol=1e-9)
+    np.testing.assert_allclose(number_density_over_n0(case, particles)[below], 1.0, rtol=SINGLE)
 
 
 def test_gate_on_a_slope_is_clear_of_the_bed():

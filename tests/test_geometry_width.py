@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tanks import closest, make_case, number_density_over_n0
+from tanks import SINGLE, closest, make_case, number_density_over_n0
 
 from mpslab import bed as beds
 from mpslab import geometry
@@ -22,7 +22,7 @@ def test_side_walls_close_the_tank():
     case, particles = walled()
     n = number_density_over_n0(case, particles)
     below = particles.fluid & (particles.position[:, 2] < 0.012 - 2.0 * D0)
-    np.testing.assert_allclose(n[below], 1.0, rtol=1e-9)
+    np.testing.assert_allclose(n[below], 1.0, rtol=SINGLE)
     assert closest(particles.position) > 0.999 * D0
 
 
@@ -50,7 +50,7 @@ def test_periodic_tank_has_no_side_walls():
     assert (y.min(), y.max()) == (pytest.approx(0.5 * D0), pytest.approx(0.02 - 0.5 * D0))
     n = number_density_over_n0(case, particles)
     below = particles.fluid & (particles.position[:, 2] < 0.012 - 2.0 * D0)
-    np.testing.assert_allclose(n[below], 1.0, rtol=1e-9)
+    np.testing.assert_allclose(n[below], 1.0, rtol=SINGLE)
 
 
 def test_water_reaches_both_side_walls_of_a_width_that_is_no_multiple_of_the_spacing():

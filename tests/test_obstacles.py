@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
-from tanks import CLASSIC, closest, flow_of, make_case, number_density_over_n0, run
+from tanks import CLASSIC, SINGLE, closest, flow_of, make_case, number_density_over_n0, run
 
 from mpslab import geometry, load_case
 from mpslab.gauges import probe, surface_elevation
@@ -94,7 +94,7 @@ def test_lattice_goes_on_from_the_water_into_the_obstacle(obstacle, changes):
     case, particles = tank_with(obstacle, **changes)
     assert closest(particles.position) > 0.999 * D0
     below = particles.fluid & (particles.position[:, 2] < 0.03 - 2.0 * D0)
-    np.testing.assert_allclose(number_density_over_n0(case, particles)[below], 1.0, rtol=1e-9)
+    np.testing.assert_allclose(number_density_over_n0(case, particles)[below], 1.0, rtol=SINGLE)
 
 
 def test_water_around_an_obstacle_that_spans_a_part_of_the_width():
@@ -102,7 +102,7 @@ def test_water_around_an_obstacle_that_spans_a_part_of_the_width():
     assert np.count_nonzero(particles.fluid) == 30 * 10 * 15 - 7 * 4 * 6
     assert closest(particles.position) > 0.999 * D0
     below = particles.fluid & (particles.position[:, 2] < 0.03 - 2.0 * D0)
-    np.testing.assert_allclose(number_density_over_n0(case, particles)[below], 1.0, rtol=1e-9)
+    np.testing.assert_allclose(number_density_over_n0(case, particles)[below], 1.0, rtol=SINGLE)
 
 
 def test_faces_are_rounded_to_whole_spacings():

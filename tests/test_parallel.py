@@ -17,7 +17,7 @@ from mpslab import checkpoint, communicator, launch, open_run
 from mpslab.stopwatch import PHASES
 
 FILES = ("checkpoint.h5", "gauges.csv", "probes.csv", "lost.csv")
-END = ["--until", "0.015", "--no-pictures"]
+END = ["--until", "0.02", "--no-pictures"]
 
 
 def finished(*arguments):

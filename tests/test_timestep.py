@@ -200,4 +200,4 @@ def slap(seed, **changes):
 
 def test_water_that_is_about_to_hit_a_wall_shortens_the_step_and_makes_no_energy():
     """Steps that do not see it coming throw particles about; the band is that of the column."""
-    assert max(slap(seed) for seed in (0, 1)) < 2e-3
+    assert max(slap(seed) for seed in range(4)) < 2e-3

@@ -89,14 +89,6 @@ def _check_radii(scheme):
         f"<= {WIDEST_SOLVED:g} spacings where scheme.walls = 'solved', for only the first layer of "
         "such walls has a pressure, and water that sees more of them is not held up",
     )
-    corrects = getattr(plugins.load("gradients", scheme.gradient), "NEEDS_CORRECTION", False)
-    require(
-        radius == scheme.effective_radius or not corrects,
-        "scheme.gradient_radius",
-        radius,
-        f"0, or scheme.effective_radius = {scheme.effective_radius:g} spacings, for which "
-        f"scheme.gradient = {scheme.gradient!r} has its correction",
-    )
 
 
 def models(metadata):

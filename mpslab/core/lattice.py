@@ -1,9 +1,9 @@
 """The lattice on which a tank is laid out: its columns and rows, and where the bed meets them."""
 
 import numpy as np
-import scipy
 
 from mpslab import bed as beds
+from mpslab.core.later import scipy
 
 
 def effective_length(case):

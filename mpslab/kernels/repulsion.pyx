@@ -1,34 +1,53 @@
 """Displacements that keep particles apart: shifting, dynamic stabilisation, collision."""
 from libc.math cimport sqrt
 
-from mpslab.kernels.pair cimport FLUID, distance, has_pressure, wrap
+from mpslab.kernels.lanes cimport four, lane, load, minus, nearest, nothing, plus, times
+from mpslab.kernels.pair cimport FLUID, distance, has_pressure, plus_turned, weight, wrap
 
 
-def shift(const double[:, :, ::1] second, const double[:, :, ::1] c, const double[:, ::1] lean,
-          const unsigned char[::1] moves, double factor, double longest, double[:, ::1] out):
-    """dr_i = -factor (C_i m_i + S_i)/2 of the particles that may move, at most `longest` [m].
+def shift(const double[:, ::1] position, const int[::1] row, const int[::1] solid,
+          const int[::1] other, stencil, const double[:, :, ::1] c, const unsigned char[::1] moves,
+          double factor, double longest, double[:, ::1] out):
+    """dr_i = -factor sum_j (C_i + D_j)/2 r_ij w/r^2 of the particles that may move [m].
 
-    This is -factor sum_j (C_i + D_j)/2 r_ij w/r^2: m_i is the sum without matrices, S_i that with
-    those of the neighbours (`mpslab.kernels.divergence.adjoint`).
+    D_j is C_j of water and C_i of solids; no move is longer than `longest` [m].
 
-    second : (n, 3, 4), see mpslab.kernels.measure; c : (n, 3, 4); lean : (n, 4) S_i
-    factor : [m2]
+    position : (n, 4) [m], where the particles are now, the fourth number 0
+    row, solid, other : pairs, see mpslab.kernels.measure
+    c : (n, 3, 4), see mpslab.kernels.moments;  factor : [m2]
     """
-    cdef double[3] s
+    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double length, scale
-    cdef Py_ssize_t i, a
+    cdef four here, of_water, of_solids, turned_, v
+    cdef Py_ssize_t i, k, a
     with nogil:
         for i in range(moves.shape[0]):
             out[i, 0] = out[i, 1] = out[i, 2] = 0.0
             if not moves[i]:
                 continue
+            here = load(&position[i, 0])
+            of_water = of_solids = turned_ = nothing()
+            for k in range(row[i], solid[i]):
+                v = pull_of(minus(load(&position[other[k], 0]), here), radius, width, floor)
+                of_water = plus(of_water, 1.0, v)
+                turned_ = plus_turned(turned_, &c[other[k], 0, 0], v)
+            for k in range(solid[i], row[i + 1]):
+                v = pull_of(minus(load(&position[other[k], 0]), here), radius, width, floor)
+                of_solids = plus(of_solids, 1.0, v)
+            turned_ = plus_turned(turned_, &c[i, 0, 0], plus(of_water, 2.0, of_solids))
+            length = 0.5 * factor * sqrt(lane(turned_, 0) ** 2 + lane(turned_, 1) ** 2
+                                         + lane(turned_, 2) ** 2)
+            scale = -0.5 * factor * (longest / length if length > longest else 1.0)
             for a in range(3):
-                s[a] = 0.5 * (c[i, a, 0] * second[i, 0, 3] + c[i, a, 1] * second[i, 1, 3]
-                              + c[i, a, 2] * second[i, 2, 3] + lean[i, a])
-            length = factor * sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2])
-            scale = -factor * (longest / length if length > longest else 1.0)
-            for a in range(3):
-                out[i, a] = scale * s[a]
+                out[i, a] = scale * lane(turned_, a)
+
+
+cdef inline four pull_of(four r, double radius, double width, double floor) noexcept nogil:
+    """r_ij w/r^2 of a difference of places [m]."""
+    cdef double inverse
+    r = nearest(r, width)
+    inverse = 1.0 / distance(lane(r, 0), lane(r, 1), lane(r, 2), floor)
+    return times(weight(inverse, radius) * inverse * inverse, r)
 
 
 def moved(const double[:, ::1] position, const double[:, ::1] before, double width,

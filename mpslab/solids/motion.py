@@ -8,7 +8,8 @@ formula, not by differences.
 """
 
 import numpy as np
-import scipy
+
+from mpslab.core.later import scipy
 
 
 def displacement(motion, points, start, end):

@@ -13,7 +13,7 @@ def stabilise(near, dt, pace, scheme):
     moved until it vanishes feel no force from the pressure itself, only from its differences.
     With R of the lattice (`Stencil.restoring`) the strength A is the share of a displacement that
     the step takes back (a little less, for the matrices change, too); near 1/2 neighbours
-    overshoot together.  The sum is that of where the pressure acted.
+    overshoot together.  The matrices are those of where the pressure acted.
     """
     factor = share(scheme, dt, pace) / near.stencil.restoring
-    shift(near, near.correction, near.lean, factor, dt / pace)
+    shift(near, near.correction, factor, dt / pace)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from mpslab.core.neighbourhood import padded
 from mpslab.kernels import density, repulsion
 
 STAGE = "corrected"
@@ -14,25 +15,23 @@ def stabilise(near, dt, pace, scheme):
 
     A is the `share` of the step; velocities stay.
     """
-    matrices, lean = np.zeros_like(near.second), np.zeros((len(near.particles), 4))
+    matrices = np.zeros_like(near.second)
     matrices[:, range(3), range(3)] = 1.0
-    lean[:, :3] = near.second[:, :, 3]
     factor = share(scheme, dt, pace) * near.stencil.spacing**2 / near.stencil.n0
-    shift(near, matrices, lean, factor, dt / pace)
+    shift(near, matrices, factor, dt / pace)
 
 
-def shift(near, matrices, lean, factor, paces):
-    """Move the water by -factor (C_i m_i + S_i)/2, but neither the surface nor what is beside it.
+def shift(near, matrices, factor, paces):
+    """Move the water by -factor sum_j (C_i + D_j)/2 r_ij w/r^2, summed where it is now.
 
-    The sums are those of where the pressure acted.
+    Neither the surface nor what is beside it moves.  Sums of where the pressure acted would do for
+    waves, but not where water is thrown against a wall: there they throw particles together.
 
     Parameters
     ----------
     near : Neighbourhood
     matrices : (n, 3, 4) float64
-        C_i.
-    lean : (n, 4) float64 [1/m]
-        S_i, the sum with the matrices of the neighbours.
+        C_i; D_j is C_j of water and C_i of solids.
     factor : float [m2]
     paces : float
         How long the step is, in paces.
@@ -41,8 +40,10 @@ def shift(near, matrices, lean, factor, paces):
     held, move = np.empty(len(particles), np.uint8), np.empty_like(particles.position)
     density.beside(near.row, near.other, near.offset, particles.surface, held)
     moves = (particles.fluid & (held == 0)).astype(np.uint8)
-    repulsion.shift(near.second, matrices, lean, moves, factor,
-                    LONGEST * near.stencil.spacing * paces, move)  # fmt: skip
+    repulsion.shift(
+        padded(particles.position), near.row, near.solid, near.other, near.stencil, matrices,
+        moves, factor, LONGEST * near.stencil.spacing * paces, move,
+    )  # fmt: skip
     particles.position += move
 
 

@@ -1,9 +1,9 @@
 """The motion of a piston that makes a recorded surface elevation, by linear theory."""
 
 import numpy as np
-import scipy
 
 from mpslab import breaking, paddle
+from mpslab.core.later import scipy
 from mpslab.theory import dispersion
 from mpslab.wavemakers import _sea, _table
 

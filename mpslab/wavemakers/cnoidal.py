@@ -3,9 +3,9 @@
 import math
 
 import numpy as np
-import scipy
 
 from mpslab import breaking, paddle, waves
+from mpslab.core.later import scipy
 
 STEPS = 100  # Runge-Kutta steps to the period of a sine; more for a sharp crest
 

@@ -1,9 +1,9 @@
 """Paddle that replays a recorded displacement, or makes a recorded surface elevation."""
 
 import numpy as np
-import scipy
 
 from mpslab import paddle
+from mpslab.core.later import scipy
 from mpslab.wavemakers import _elevation, _record
 
 LATE = 0.1  # share of the run that may pass before the record begins

@@ -3,9 +3,9 @@
 import math
 
 import numpy as np
-import scipy
 
 from mpslab import paddle, waves
+from mpslab.core.later import scipy
 from mpslab.theory import stream_function
 from mpslab.wavemakers import _sea, _table
 
