@@ -8,7 +8,7 @@ import math
 from collections.abc import Callable
 
 from mpslab import waves
-from mpslab.core.later import scipy
+from mpslab.later import scipy
 
 # Madsen (1971): above this Ursell number the second-order crest has a false secondary crest.
 MADSEN_URSELL_LIMIT = 8.0 * math.pi**2 / 3.0

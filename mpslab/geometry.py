@@ -6,9 +6,9 @@ Water particles stand half a spacing off every boundary, wall particles half a s
 import numpy as np
 
 from mpslab import filling
-from mpslab.core.later import scipy
 from mpslab.core.lattice import at_row, effective_length, rows_across
 from mpslab.forcings import forcings_of, total
+from mpslab.later import scipy
 from mpslab.particles import FIRST_SOLID, FLUID, WATER, make_particles
 from mpslab.solids import obstacles
 from mpslab.solids.collection import solids_of

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mpslab.core.later import scipy
+from mpslab.later import scipy
 
 # Formulas in kh have reached their deep-water limit long before, and sinh(600) still fits a float.
 LARGEST_KH = 300.0

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mpslab import bed as beds
-from mpslab.core.later import scipy
+from mpslab.later import scipy
 
 
 def effective_length(case):

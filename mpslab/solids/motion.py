@@ -9,7 +9,7 @@ formula, not by differences.
 
 import numpy as np
 
-from mpslab.core.later import scipy
+from mpslab.later import scipy
 
 
 def displacement(motion, points, start, end):

@@ -12,7 +12,7 @@ import numpy as np
 
 from mpslab import bed as beds
 from mpslab.core import lattice
-from mpslab.core.later import scipy
+from mpslab.later import scipy
 from mpslab.particles import FACE, FILLER, FIRST_SOLID, PISTON
 from mpslab.solids.solid import Solid
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mpslab import breaking, paddle
-from mpslab.core.later import scipy
+from mpslab.later import scipy
 from mpslab.theory import dispersion
 from mpslab.wavemakers import _sea, _table
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from mpslab import breaking, paddle, waves
-from mpslab.core.later import scipy
+from mpslab.later import scipy
 
 STEPS = 100  # Runge-Kutta steps to the period of a sine; more for a sharp crest
 

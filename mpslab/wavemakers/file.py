@@ -3,7 +3,7 @@
 import numpy as np
 
 from mpslab import paddle
-from mpslab.core.later import scipy
+from mpslab.later import scipy
 from mpslab.wavemakers import _elevation, _record
 
 LATE = 0.1  # share of the run that may pass before the record begins

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from mpslab import paddle, waves
-from mpslab.core.later import scipy
+from mpslab.later import scipy
 from mpslab.theory import stream_function
 from mpslab.wavemakers import _sea, _table
 
