@@ -14,8 +14,8 @@ import numpy as np
 
 from benchmarks import program
 from benchmarks.model import HERE, ROW_BYTES, coarse_work, make_tank, share_out, slowdown
-from mpslab import communicator
-from mpslab.provenance import environment
+from mpslab.output.provenance import environment
+from mpslab.parallel import communicator
 
 ROWS = (10, 100, 1_000, 10_000, 100_000)  # values in the messages that are timed
 REPEATS = 500

@@ -9,10 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import balance, open_run
-from mpslab.rebalance import load
+from mpslab import open_run
+from mpslab.parallel import balance
+from mpslab.parallel.rebalance import load
+from mpslab.run.step import slabs_of
 from mpslab.solids.piston import make_paddle
-from mpslab.step import slabs_of
 
 METHODS = ("static", "centroid", "optimal")
 COLUMNS = (*METHODS, "centroid, of particles")

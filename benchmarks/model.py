@@ -16,9 +16,12 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import balance, deflation, filling, geometry, load_case, pressure
-from mpslab.rebalance import SOLID
-from mpslab.slabs import WIDTH, make_slabs
+from mpslab import load_case
+from mpslab.parallel import balance
+from mpslab.parallel.rebalance import SOLID
+from mpslab.parallel.slabs import WIDTH, make_slabs
+from mpslab.pressure import deflation, equation
+from mpslab.solids import filling, layout
 from mpslab.solids.piston import make_paddle
 
 HERE = Path(__file__).parent
@@ -53,9 +56,9 @@ class Tank:
     water, particles : (slabs,) int
         Water particles, and all.
     work : (slabs,) float
-        By which ranks are cut; see `mpslab.rebalance.load`.
+        By which ranks are cut; see `mpslab.parallel.rebalance.load`.
     groups : (slabs,) int
-        Of the deflation; see `mpslab.deflation`.
+        Of the deflation; see `mpslab.pressure.deflation`.
     half : int
         Groups before a group that it may be coupled to: the coarse matrix is a band.
     """
@@ -72,10 +75,10 @@ def make_tank(spacing):
     """The tank at a spacing [m]: its slice in 2-D, as often as there are rows across."""
     case = load_case("plunging_breaker", {"particles.spacing": spacing})
     flat = load_case("plunging_breaker", {"particles.spacing": spacing, "tank.width": 0.0})
-    backmost, across = make_paddle(flat).backmost, geometry.rows_across(case)
-    particles = geometry.build_particles(flat, backmost)
+    backmost, across = make_paddle(flat).backmost, layout.rows_across(case)
+    particles = layout.build_particles(flat, backmost)
     radius = spacing * flat.scheme.reach
-    slabs = make_slabs(*geometry.extent(flat, backmost), radius)
+    slabs = make_slabs(*layout.extent(flat, backmost), radius)
     slab, fluid = slabs.of(particles.position[:, 0]), particles.fluid
     # Rows across differ in where a column has a particle more.
     rows = np.concatenate([filling.section(case, row)[:, 0] for row in range(across)])
@@ -98,9 +101,9 @@ def make_tank(spacing):
 
 
 def _cell(place, case):
-    """Cell across the tank of places [m] in y or z, as wide as in `mpslab.pressure.assemble`."""
+    """Cell across the tank of places [m] in y or z, as wide as those of a pressure system."""
     radius = case.particles.spacing * case.scheme.laplacian_radius
-    return pressure.cells(place, WIDTH * radius)
+    return equation.cells(place, WIDTH * radius)
 
 
 def _groups(slab, up, aside, water):

@@ -10,8 +10,8 @@ import json
 import numpy as np
 
 from benchmarks import program
-from mpslab.provenance import environment
-from mpslab.stopwatch import KINDS, PHASES
+from mpslab.core.stopwatch import KINDS, PHASES
+from mpslab.output.provenance import environment
 
 
 def compare(ranks, changes, steps, turns, tell=print):

@@ -11,7 +11,10 @@ import time
 
 import numpy as np
 
-from mpslab import Simulation, friction, load_case, pressure, step
+from mpslab import Simulation, load_case
+from mpslab.models import friction
+from mpslab.pressure import equation
+from mpslab.run import step
 
 COPY = 2**24  # doubles, 128 MB: more than any cache
 # What a pass has to read and write, a pair and a particle.
@@ -124,7 +127,7 @@ class Passes:
     def matrix(self):
         flow, n = self.flow, len(self.flow.particles)
         none = np.full(n, 1e-9)  # so that all rows are tied to the surface
-        system, _ = pressure.assemble(
+        system, _ = equation.assemble(
             self.near, flow.laplacian_stencil, flow.pair_terms, flow.case.fluid.density,
             np.zeros(n), flow.particles.fluid, none,
         )  # fmt: skip

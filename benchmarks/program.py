@@ -13,12 +13,13 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import Simulation, launch, load_case
-from mpslab.balance import imbalance
-from mpslab.domain import world
+from mpslab import Simulation, load_case
+from mpslab.core.stopwatch import KINDS, PHASES
 from mpslab.kernels import coarse
-from mpslab.rebalance import load
-from mpslab.stopwatch import KINDS, PHASES
+from mpslab.parallel import launch
+from mpslab.parallel.balance import imbalance
+from mpslab.parallel.domain import world
+from mpslab.parallel.rebalance import load
 
 ROOT = Path(__file__).parent.parent
 TIMEOUT = 1800.0  # seconds
@@ -88,8 +89,8 @@ def time_messages(slabs, rows, repeats):
     dict
         ``sum`` [s], and ``exchange`` [s], one for each size; medians.
     """
-    from mpslab.domain import Domain
-    from mpslab.slabs import Slabs
+    from mpslab.parallel.domain import Domain
+    from mpslab.parallel.slabs import Slabs
 
     domain = Domain(Slabs(0.0, 1.0, slabs))
     sums = np.zeros(slabs)

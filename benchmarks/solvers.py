@@ -12,8 +12,9 @@ import numpy as np
 from scipy.sparse import csr_matrix, diags
 from scipy.sparse.linalg import LinearOperator, cg
 
-from mpslab import Simulation, load_case, plugins
-from mpslab.provenance import environment
+from mpslab import Simulation, load_case
+from mpslab.core import plugins
+from mpslab.output.provenance import environment
 
 OURS = ("deflated", "scg", "piccg", "iccg")
 STEPS = 3  # before a system is taken

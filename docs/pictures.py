@@ -11,8 +11,8 @@ from pathlib import Path
 import matplotlib
 
 from mpslab import open_run
-from mpslab.pictures import STYLE
-from mpslab.snapshots import draw_breaker, draw_tank
+from mpslab.analysis.pictures import STYLE
+from mpslab.analysis.snapshots import draw_breaker, draw_tank
 
 DOCS = Path(__file__).parent
 RUNS = DOCS.parent / "runs" / "docs"

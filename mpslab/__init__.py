@@ -11,13 +11,13 @@ A run that wrote files is read from its folder, at any time:
 >>> run.gauges["time"], run.frames[-1].position
 """
 
+from mpslab.analysis.results import open_run
 from mpslab.cases import load_case
+from mpslab.core.keys import CaseError
+from mpslab.core.plugins import add as add_model
 from mpslab.instruments import Instrument
-from mpslab.keys import CaseError
-from mpslab.plugins import add as add_model
-from mpslab.results import open_run
+from mpslab.run.guard import RunFailed
 from mpslab.simulation import Simulation
-from mpslab.watch import RunFailed
 
 __version__ = "0.1.0"
 __all__ = [

@@ -12,11 +12,11 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab.files import FULL
-from mpslab.progress import LINE_EVERY, make_bar
-from mpslab.results import open_run
-from mpslab.scenes import reel, scene
-from mpslab.scenes.stills import Shot, box_of
+from mpslab.analysis.results import open_run
+from mpslab.analysis.scenes import reel, scene
+from mpslab.analysis.scenes.stills import Shot, box_of
+from mpslab.core.files import FULL
+from mpslab.run.progress import LINE_EVERY, make_bar
 from mpslab.terminal import Parser, unbroken
 
 BAD_INPUT, FAILED, INTERRUPTED = 2, 3, 130

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import scatter
-from mpslab.kinds import WALL
-from mpslab.overturning import JET, find_crest
-from mpslab.results import open_run
-from mpslab.snapshots import middle_slice
+from mpslab.analysis import scatter
+from mpslab.analysis.overturning import JET, find_crest
+from mpslab.analysis.results import open_run
+from mpslab.analysis.snapshots import middle_slice
+from mpslab.core.kinds import WALL
 from mpslab.terminal import unbroken
 
 BAD_INPUT = 2
@@ -28,7 +28,7 @@ def measure(run):
 
     Parameters
     ----------
-    run : mpslab.results.Run
+    run : mpslab.analysis.results.Run
 
     Returns
     -------
@@ -98,7 +98,7 @@ def ledger(steps):
     Parameters
     ----------
     steps : structured array (steps,)
-        As of `mpslab.results.Run` and of a Simulation.
+        As of `mpslab.analysis.results.Run` and of a Simulation.
 
     Returns
     -------
@@ -122,7 +122,7 @@ def harmonics(gauges, period):
     Parameters
     ----------
     gauges : structured array (n,)
-        As of `mpslab.results.Run` and of a Simulation.
+        As of `mpslab.analysis.results.Run` and of a Simulation.
     period : float [s]
 
     Returns

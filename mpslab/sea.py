@@ -13,9 +13,9 @@ import sys
 from pathlib import Path
 
 from mpslab.analysis import reflection, seastate, sheets
+from mpslab.analysis.results import open_run
 from mpslab.analysis.seastate import UNITS, Sea
-from mpslab.files import FULL
-from mpslab.results import open_run
+from mpslab.core.files import FULL
 from mpslab.terminal import Parser, unbroken
 
 __all__ = ["UNITS", "Sea", "look", "write"]

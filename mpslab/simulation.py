@@ -8,33 +8,26 @@ from numbers import Real
 
 import numpy as np
 
-from mpslab import (
-    checkpoint,
-    diagnostics,
-    geometry,
-    initial,
-    inputs,
-    restart,
-    settling,
-    timestep,
-)
-from mpslab.actions import Actions
-from mpslab.cases import dumps
-from mpslab.communicator import on_root
-from mpslab.core import own
-from mpslab.domain import world
+from mpslab.cases import dumps, inputs
+from mpslab.core import diagnostics, own, timestep
+from mpslab.core.keys import require_choice
+from mpslab.core.memory import keep_freed
+from mpslab.core.particles import ParticleSet, no_particles
+from mpslab.core.schedule import due
 from mpslab.instruments import with_own
-from mpslab.keys import require_choice
-from mpslab.memory import keep_freed
-from mpslab.output import RunFolder, take
-from mpslab.particles import ParticleSet, no_particles
-from mpslab.rebalance import Rebalancer
-from mpslab.record import Record
-from mpslab.schedule import due
+from mpslab.output import checkpoint, restart
+from mpslab.output.run_folder import RunFolder, take
+from mpslab.parallel.communicator import on_root
+from mpslab.parallel.domain import world
+from mpslab.parallel.rebalance import Rebalancer
+from mpslab.run import initial, settling
+from mpslab.run.actions import Actions
+from mpslab.run.guard import RunFailed, check_finite, check_lost, check_step, find_lost
+from mpslab.run.record import Record
+from mpslab.run.step import advance, make_flow
+from mpslab.solids import layout
 from mpslab.solids.collection import solids_of
 from mpslab.solids.piston import make_paddle
-from mpslab.step import advance, make_flow
-from mpslab.watch import RunFailed, check_finite, check_lost, check_step, find_lost
 
 STOPPED = ("interrupted", "stopped")
 
@@ -44,7 +37,7 @@ class Simulation:
 
     Parameters
     ----------
-    case : mpslab.parameters.Case
+    case : mpslab.core.parameters.Case
         From `mpslab.load_case`.
     out : str, Path or RunFolder, optional
         New or empty folder for the files of the run, or one that `take` gave; without it
@@ -98,7 +91,7 @@ class Simulation:
         backmost = paddle.backmost if paddle else 0.0
         solids = self._own["solids"]
         flow = self._flow_of(
-            case, paddle, lambda: geometry.build_particles(case, backmost, solids)
+            case, paddle, lambda: layout.build_particles(case, backmost, solids)
         )
         self.at_start = sum(flow.domain.from_all(int(np.count_nonzero(flow.particles.fluid))))
         settling.settle(flow)
@@ -109,7 +102,7 @@ class Simulation:
         """The flow of the particles that `make` gives on rank 0: no other holds the whole tank."""
         particles = on_root(world(), make) or no_particles()
         solids = solids_of(case, paddle, self._own["solids"])
-        return make_flow(case, particles, solids, geometry.period(case), self._own["forcings"])
+        return make_flow(case, particles, solids, layout.period(case), self._own["forcings"])
 
     @classmethod
     def resume(cls, folder, changes=None, instruments=(), forcings=None, solids=None):
@@ -120,7 +113,7 @@ class Simulation:
         folder : str or Path
         changes : dict, optional
             Values that replace those of the case, by key: {"time.end": 3.0}. What may change is
-            told in `mpslab.restart`.
+            told in `mpslab.output.restart`.
         instruments : sequence of mpslab.Instrument, optional
             Those that the run began with.
         forcings, solids : sequence, optional
@@ -198,7 +191,7 @@ class Simulation:
 
     @property
     def domain(self):
-        """The part of the tank of this rank, a `mpslab.domain.Domain`."""
+        """The part of the tank of this rank, a `mpslab.parallel.domain.Domain`."""
         return self._flow.domain
 
     @property
@@ -211,7 +204,7 @@ class Simulation:
 
     @property
     def last_row(self):
-        """The last row of the steps, a dict by the keys of `mpslab.columns.STEP_COLUMNS`."""
+        """The last row of the steps, a dict by the keys of `mpslab.core.columns.STEP_COLUMNS`."""
         return self._record.instruments["steps"].last
 
     @property
@@ -235,7 +228,7 @@ class Simulation:
 
     @property
     def stopwatch(self):
-        """Where the time of the steps went on this rank, a `mpslab.stopwatch.Stopwatch`."""
+        """Where the time of the steps went on this rank, a `mpslab.core.stopwatch.Stopwatch`."""
         return self._flow.stopwatch
 
     def every(self, interval, action):

@@ -7,15 +7,18 @@ import sys
 import traceback
 from pathlib import Path
 
-from mpslab import cases, catalogue, launch, restart
-from mpslab.communicator import all_here
-from mpslab.domain import launched, world
-from mpslab.files import FULL, DiskFull
-from mpslab.output import RunFolder, take
-from mpslab.preflight import check_ranks, preflight
+from mpslab import cases
+from mpslab.cases import catalogue
+from mpslab.core.files import FULL, DiskFull
+from mpslab.output import restart
+from mpslab.output.run_folder import RunFolder, take
+from mpslab.parallel import launch
+from mpslab.parallel.communicator import all_here
+from mpslab.parallel.domain import launched, world
+from mpslab.run.guard import RunFailed
+from mpslab.run.preflight import check_ranks, preflight
 from mpslab.simulation import Simulation
 from mpslab.terminal import Parser, unbroken
-from mpslab.watch import RunFailed
 
 DEFAULT_CASE = "plunging_breaker"
 BAD_INPUT, FAILED, INTERRUPTED = 2, 3, 130
@@ -123,7 +126,7 @@ def _prepared(options, arguments, comm, tell):
     if options.check:
         tell(f"{case.name}: {case.title}\n{report.text()}")
         if options.draw and comm.rank == 0:
-            from mpslab import paddle_picture
+            from mpslab.analysis import paddle_picture
 
             paddle_picture.draw(case, options.draw)
         return None
@@ -183,7 +186,7 @@ def _further(end):
 
 
 def _run(simulation, options, tell):
-    from mpslab.progress import make_progress
+    from mpslab.run.progress import make_progress
 
     folder = simulation.folder.path
     until = simulation.case.time.end if options.until is None else options.until
@@ -258,7 +261,7 @@ def _report(simulation, options, tell):
         tell(f"Done: t = {simulation.time:.4f} s after {simulation.step} steps, "
              f"{simulation.lost} particles lost. Results in {folder}")  # fmt: skip
     if tell is print and not options.no_pictures:
-        from mpslab import pictures
+        from mpslab.analysis import pictures
 
         tell("Pictures:", *pictures.listed(pictures.draw_run(folder)), sep="\n  ")
     return 0

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import matplotlib
 
-from mpslab.pictures import STYLE
+from mpslab.analysis.pictures import STYLE
 from paper_figures import agreement, kept, runs
 from paper_figures.keep import keep
 

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from mpslab.overturning import JET
+from mpslab.analysis.overturning import JET
 from paper_figures.fig_5 import smooth
 from paper_figures.keep import RANKS
 from paper_figures.table_1 import each, total

@@ -6,12 +6,14 @@ import shutil
 
 import numpy as np
 
-from mpslab import balance, load_case, vtkhdf
-from mpslab.kinds import FLUID
-from mpslab.rebalance import load
+from mpslab import load_case
+from mpslab.core.kinds import FLUID
+from mpslab.output import vtkhdf
+from mpslab.output.tables import read_table
+from mpslab.parallel import balance
+from mpslab.parallel.rebalance import load
+from mpslab.run.step import slabs_of
 from mpslab.solids.piston import make_paddle
-from mpslab.step import slabs_of
-from mpslab.tables import read_table
 from paper_figures.measures import measure
 
 TIMES = (1.0, 1.04, 1.09, 1.12, 1.16, 1.2)  # [s] of the snapshots

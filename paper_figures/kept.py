@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from mpslab import open_run
-from mpslab.tables import read_table
+from mpslab.output.tables import read_table
 from paper_figures.keep import LEVELS, MILLIMETRE
 
 

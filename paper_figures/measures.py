@@ -3,8 +3,8 @@
 import numpy as np
 from scipy import ndimage
 
-from mpslab import scatter
-from mpslab.overturning import find_crest
+from mpslab.analysis import scatter
+from mpslab.analysis.overturning import find_crest
 
 STILL = 0.04  # [m] still water level of the tank
 TIP = 10.0  # [spacings] around the jet within which it is judged

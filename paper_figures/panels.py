@@ -5,8 +5,8 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import EllipseCollection
 from matplotlib.colors import Normalize
 
-from mpslab.scenes import scene
-from mpslab.scenes.view import fitted
+from mpslab.analysis.scenes import scene
+from mpslab.analysis.scenes.view import fitted
 
 # As bright in grey as in colour, and even to the eye.
 COLOURS = "viridis"

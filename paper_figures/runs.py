@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mpslab import load_case
-from mpslab.keys import CaseError
+from mpslab.core.keys import CaseError
 
 CASE = "plunging_breaker"
 TABLE = Path(__file__).parent / "runs.toml"

@@ -17,8 +17,8 @@ from functools import cache
 from pathlib import Path
 
 from mpslab import cases, tank
-from mpslab.keys import toml_name
-from mpslab.parameters import LISTS, TABLES
+from mpslab.core.keys import toml_name
+from mpslab.core.parameters import LISTS, TABLES
 
 MOST_SECONDS = 2.0  # of a processor
 MOST_BYTES = 300e6  # of growth over all draws

@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from mpslab import launch
+from mpslab.parallel import launch
 
 TIMEOUT = 120.0  # seconds; a deadlock ends here
 ROOT = Path(__file__).parent.parent
@@ -55,7 +55,7 @@ def steps(changes, count, dt):
     """Some steps of a small tank: bytes of the particles and iterations of the solver."""
     from tanks import flow_of, make_case
 
-    from mpslab.step import advance
+    from mpslab.run.step import advance
 
     flow = flow_of(make_case(changes))
     iterations = [advance(flow, dt).iterations for _ in range(count)]
@@ -66,7 +66,7 @@ def steps(changes, count, dt):
 
 def nested(changes, count, dt):
     """As `steps`, with `deflated`, and no factor that is worth its cost but that of the slabs."""
-    from mpslab import deflation
+    from mpslab.pressure import deflation
 
     usual, deflation.WORK = deflation.WORK, 0.0
     try:
@@ -100,25 +100,26 @@ def laid_out():
     """Particles that each rank lays out, and those that it owns, at the start of a run."""
     from tanks import make_case
 
-    from mpslab import Simulation, geometry
-    from mpslab.domain import world
+    from mpslab import Simulation
+    from mpslab.parallel.domain import world
+    from mpslab.solids import layout
 
-    build, made = geometry.build_particles, []
+    build, made = layout.build_particles, []
 
     def count(*arguments):
         particles = build(*arguments)
         made.append(len(particles))
         return particles
 
-    geometry.build_particles = count
+    layout.build_particles = count
     run = Simulation(make_case({"tank.length": 0.16}))
     return world().allgather((sum(made), len(run.particles)))
 
 
 def looks():
     """How often each rank looks for a message before it takes a nap."""
-    from mpslab.communicator import Patience
-    from mpslab.domain import world
+    from mpslab.parallel.communicator import Patience
+    from mpslab.parallel.domain import world
 
     return world().allgather(Patience.looks)
 
@@ -163,7 +164,7 @@ def spoiled(how, folder):
     import numpy as np
 
     from mpslab import simulation, tank
-    from mpslab.domain import world
+    from mpslab.parallel.domain import world
 
     advance, comm = simulation.advance, world()
 
@@ -183,7 +184,7 @@ def spoiled(how, folder):
 def refused(folder):
     """A start at which one rank alone finds fault with the input."""
     from mpslab import simulation, tank
-    from mpslab.domain import world
+    from mpslab.parallel.domain import world
 
     make = simulation.make_flow
 
@@ -200,7 +201,8 @@ def full(what, folder):
     """A run for whose files there is no room any more, from a frame or a checkpoint on."""
     import resource
 
-    from mpslab import checkpoint, tank, vtkhdf
+    from mpslab import tank
+    from mpslab.output import checkpoint, vtkhdf
 
     owner = vtkhdf.ParticleSeries if what == "append" else checkpoint
     write = getattr(owner, what)
@@ -219,8 +221,9 @@ def struck(how, folder):
     """A run that Ctrl-C, or the kill of rank 1, hits amid its second cut."""
     import time
 
-    from mpslab import rebalance, tank
-    from mpslab.domain import world
+    from mpslab import tank
+    from mpslab.parallel import rebalance
+    from mpslab.parallel.domain import world
 
     load, calls, came = rebalance.load, [], []
 
@@ -270,7 +273,7 @@ def tank(*arguments):
 
 if __name__ == "__main__":
     result = globals()[sys.argv[1]](*(json.loads(a) for a in sys.argv[2:]))
-    from mpslab.domain import world
+    from mpslab.parallel.domain import world
 
     if world().rank == 0:
         print(json.dumps(result))

@@ -6,7 +6,7 @@ import numpy as np
 from tanks import make_case
 
 from mpslab.cases.writer import dumps
-from mpslab.waves import wave_number
+from mpslab.theory.waves import wave_number
 
 GRAVITY = 9.81
 

@@ -3,10 +3,10 @@
 import numpy as np
 from tanks import add_step, open_tables
 
-from mpslab.kinds import PISTON as PISTON_FACE
-from mpslab.output import RunFolder
-from mpslab.particles import FACE, FILLER, FLUID, PISTON, TANK, WATER, make_particles
-from mpslab.vtkhdf import ParticleSeries
+from mpslab.core.kinds import PISTON as PISTON_FACE
+from mpslab.core.particles import FACE, FILLER, FLUID, PISTON, TANK, WATER, make_particles
+from mpslab.output.run_folder import RunFolder
+from mpslab.output.vtkhdf import ParticleSeries
 
 LENGTH, DEPTH = 0.8, 0.04
 BED = [[0.0, 0.0], [0.2, 0.0], [0.8, 0.06]]

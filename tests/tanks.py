@@ -6,16 +6,17 @@ from types import SimpleNamespace
 import numpy as np
 from scipy.spatial import cKDTree
 
-from mpslab import geometry, instruments
+from mpslab import instruments
 from mpslab.cases import from_tables
-from mpslab.columns import PHASE_COLUMNS, STEP_COLUMNS
+from mpslab.core.columns import PHASE_COLUMNS, STEP_COLUMNS
+from mpslab.core.neighbors import NeighborList
 from mpslab.core.neighbourhood import Neighbourhood
-from mpslab.neighbors import NeighborList
-from mpslab.particles import make_particles
+from mpslab.core.particles import make_particles
+from mpslab.core.stencil import make_stencil
+from mpslab.run.step import advance, make_flow
+from mpslab.solids import layout
 from mpslab.solids.collection import solids_of
 from mpslab.solids.piston import make_paddle
-from mpslab.stencil import make_stencil
-from mpslab.step import advance, make_flow
 
 TABLES = {
     "tank": {"length": 0.04, "depth": 0.02},
@@ -54,10 +55,10 @@ def make_case(changes=None):
 def flow_of(case, keep=None):
     """Flow of a case at t = 0; `keep` picks particles from the set."""
     paddle = make_paddle(case)
-    particles = geometry.build_particles(case, paddle.backmost if paddle else 0.0)
+    particles = layout.build_particles(case, paddle.backmost if paddle else 0.0)
     if keep is not None:
         particles = particles.take(keep(particles))
-    return make_flow(case, particles, solids_of(case, paddle), geometry.period(case))
+    return make_flow(case, particles, solids_of(case, paddle), layout.period(case))
 
 
 def run(flow, steps, dt):
@@ -112,7 +113,7 @@ def closest(position):
 
 def number_density_over_n0(case, particles, radius=2.1):
     """n/n0 of all particles of a case at a radius [spacings], (n,)."""
-    spacing, width = case.particles.spacing, geometry.period(case)
+    spacing, width = case.particles.spacing, layout.period(case)
     stencil = make_stencil(case.dim, spacing, radius, width)
     found = neighbors_of(particles.position, stencil.radius, width)
     return Neighbourhood(stencil).measure(particles, found).number_density / stencil.n0

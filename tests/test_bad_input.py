@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mpslab import cases
-from mpslab.keys import toml_name
-from mpslab.parameters import LISTS, TABLES, Case, CaseError, Gauge, Particles, Tank, Time
+from mpslab.core.keys import toml_name
+from mpslab.core.parameters import LISTS, TABLES, Case, CaseError, Gauge, Particles, Tank, Time
 
 INF, NAN = math.inf, math.nan
 
@@ -323,7 +323,10 @@ def test_setting_of_a_number_with_a_unit_is_refused_with_the_range():
         (lambda: Particles(spacing="a"), "particles.spacing = 'a': must be a number > 0 [m]"),
         (lambda: Time(end=NAN), "time.end = nan: must be a number > 0 [s]"),
         (lambda: Gauge(name="a", x=0, y="mid"), "gauge.y = 'mid': must be a number >= 0 [m]"),
-        (lambda: Case(tank=1, particles=2, time=3), "tank = 1: must be made of mpslab.parameters"),
+        (
+            lambda: Case(tank=1, particles=2, time=3),
+            "tank = 1: must be made of mpslab.core.parameters",
+        ),
     ],
 )
 def test_table_made_in_python_checks_itself(make, part):

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mpslab import balance
+from mpslab.parallel import balance
 
 METHODS = ("static", "centroid", "optimal")
 LOADS = st.lists(st.integers(0, 50), min_size=1, max_size=10)

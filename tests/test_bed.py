@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from mpslab import bed as beds
+from mpslab.core import bed as beds
 
 SLOPE = [[0.0, 0.0], [0.2, 0.0], [0.8, 0.06]]
 BAR = [[0.0, 0.01], [0.2, 0.01], [0.3, 0.05], [0.4, 0.0], [0.8, 0.0]]

@@ -5,7 +5,7 @@ import sys
 import pytest
 from ranks import ROOT
 
-from mpslab.stopwatch import PHASES
+from mpslab.core.stopwatch import PHASES
 
 sys.path.append(str(ROOT))  # last: the package under test goes first
 

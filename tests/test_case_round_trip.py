@@ -6,12 +6,13 @@ from dataclasses import fields
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mpslab import cases, plugins
+from mpslab import cases
 from mpslab.cases.checks import NARROWEST, WIDEST_SOLVED
 from mpslab.cases.complete import complete
 from mpslab.cases.recipes import RECIPES
-from mpslab.keys import toml_name
-from mpslab.parameters import LISTS, TABLES, Case
+from mpslab.core import plugins
+from mpslab.core.keys import toml_name
+from mpslab.core.parameters import LISTS, TABLES, Case
 
 
 def test_every_key_is_written_with_its_unit_and_meaning():

@@ -8,12 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mpslab import cases, plugins, waves
+from mpslab import cases
 from mpslab.cases.changes import apply
 from mpslab.cases.complete import complete
 from mpslab.cases.recipes import RECIPES
-from mpslab.keys import toml_name
-from mpslab.parameters import LISTS, TABLES, Scheme
+from mpslab.core import plugins
+from mpslab.core.keys import toml_name
+from mpslab.core.parameters import LISTS, TABLES, Scheme
+from mpslab.theory import waves
 
 NAMES = (
     "dam_break",

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from mpslab import tank
-from mpslab.keys import toml_name
-from mpslab.parameters import LISTS, TABLES
+from mpslab.core.keys import toml_name
+from mpslab.core.parameters import LISTS, TABLES
 
 PAGE = Path(__file__).parents[1] / "docs" / "keys.md"
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from tanks import flow_of, make_case, run
 
 from mpslab.core.cells import make_cells
-from mpslab.slabs import make_slabs
+from mpslab.parallel.slabs import make_slabs
 
 EXAMPLES = settings(max_examples=100, deadline=None, derandomize=True, database=None)
 

@@ -6,8 +6,8 @@ import h5py
 import numpy as np
 import pytest
 
-from mpslab import checkpoint
-from mpslab.particles import ParticleSet, make_particles
+from mpslab.core.particles import ParticleSet, make_particles
+from mpslab.output import checkpoint
 
 STATE = {
     "step": 12,

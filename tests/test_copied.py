@@ -5,8 +5,8 @@ import pytest
 from scipy.spatial import cKDTree
 from tanks import CLASSIC, flow_of, lattice, make_case, near_of, run
 
+from mpslab.core.particles import FACE, FILLER, FLUID, make_particles
 from mpslab.models import copied
-from mpslab.particles import FACE, FILLER, FLUID, make_particles
 
 LAYERS = np.array([FLUID, FACE, FILLER, FILLER, FILLER, FILLER])
 

@@ -5,11 +5,11 @@ import pytest
 from test_slabs import system_by_slab
 from test_solvers import as_matrix
 
-from mpslab import deflation
-from mpslab.conjugate_gradient import by_diagonal, conjugate_gradient
-from mpslab.deflation import Band, Deflation, Nested
 from mpslab.kernels import coarse
-from mpslab.solvers import deflated, scg
+from mpslab.pressure import deflation
+from mpslab.pressure.conjugate_gradient import by_diagonal, conjugate_gradient
+from mpslab.pressure.deflation import Band, Deflation, Nested
+from mpslab.pressure.solvers import deflated, scg
 
 TOLERANCE = 1e-8
 

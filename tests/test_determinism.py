@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 from tanks import cloud, flow_of, make_case, neighbors_of, particles_at, run, scheme
 
-from mpslab import friction, plugins
+from mpslab.core import plugins
 from mpslab.core.neighbourhood import LANES, Neighbourhood
+from mpslab.core.parameters import Fluid, Scheme
+from mpslab.core.particles import FACE, FLUID
+from mpslab.core.stencil import make_stencil
 from mpslab.kernels import sparse
-from mpslab.parameters import Fluid, Scheme
-from mpslab.particles import FACE, FLUID
-from mpslab.stencil import make_stencil
+from mpslab.models import friction
 
 SHIFTS = range(8, 64, 8)  # bytes; 64 is a line of the cache
 

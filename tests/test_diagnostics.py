@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from tanks import flow_of, make_case, particles_at, run
 
-from mpslab import diagnostics
-from mpslab.particles import FACE, FILLER, FLUID
-from mpslab.stencil import make_stencil
+from mpslab.core import diagnostics
+from mpslab.core.particles import FACE, FILLER, FLUID
+from mpslab.core.stencil import make_stencil
 
 DENSITY, GRAVITY = 1000.0, 9.81
 

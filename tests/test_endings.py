@@ -12,8 +12,10 @@ from ranks import TIMEOUT, alone, environment, start
 from tanks import make_case
 
 import mpslab
-from mpslab import checkpoint, record, simulation, tank, terminal
+from mpslab import simulation, tank, terminal
 from mpslab.cases import dumps
+from mpslab.output import checkpoint
+from mpslab.run import record
 from mpslab.simulation import Simulation
 
 QUICK = {

@@ -11,9 +11,9 @@ from PIL import Image
 from synthetic import kinds_of, tank, write_run
 
 from mpslab import film
-from mpslab.particles import make_particles
-from mpslab.scenes import reel, scene, stills
-from mpslab.vtkhdf import ParticleSeries
+from mpslab.analysis.scenes import reel, scene, stills
+from mpslab.core.particles import make_particles
+from mpslab.output.vtkhdf import ParticleSeries
 
 SPACING, WIDTH = 0.008, 0.032
 FRAMES, INTERVAL = 6, 0.25

@@ -5,8 +5,10 @@ import pytest
 from ranks import alone, start
 from tanks import make_case
 
-from mpslab import Simulation, checkpoint, open_run, step
-from mpslab.keys import CaseError
+from mpslab import Simulation, open_run
+from mpslab.core.keys import CaseError
+from mpslab.output import checkpoint
+from mpslab.run import step
 
 GRAVITY, DENSITY = 9.81, 1000.0
 STILL = {"particles.jitter": 0.0, "time.start": 1e-5}

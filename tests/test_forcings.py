@@ -6,10 +6,10 @@ from ranks import alone, start
 from tanks import flow_of, make_case, particles_at, run
 
 from mpslab import Simulation
+from mpslab.core.keys import CaseError
+from mpslab.core.motion import Sine, Table
+from mpslab.core.particles import FLUID
 from mpslab.forcings import forcings_of, frame, total
-from mpslab.keys import CaseError
-from mpslab.particles import FLUID
-from mpslab.solids.motion import Sine, Table
 
 G = 9.81
 RECORD = "time [s],x [m],z [m],roll [deg]\n0,0,0,0\n0.2,0.03,0,4\n0.5,0.05,0.02,-3\n0.9,0,0,6\n"

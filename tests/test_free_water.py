@@ -6,7 +6,7 @@ from scipy.integrate import solve_ivp
 from tanks import make_case
 
 from mpslab import Simulation
-from mpslab.preflight import preflight
+from mpslab.run.preflight import preflight
 
 DENSITY = 1000.0
 SQUARE = {"from": [3.0, 0.0, 3.0], "to": [5.0, 0.0, 5.0]}

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mpslab.scenes.freesurface import find_surface
+from mpslab.analysis.scenes.freesurface import find_surface
 
 D0 = 0.002
 

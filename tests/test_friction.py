@@ -5,12 +5,12 @@ import pytest
 from ranks import start
 from tanks import SINGLE, cloud, inside, lattice, make_case, near_of, particles_at
 
-from mpslab import friction
+from mpslab.core.keys import CaseError
 from mpslab.core.neighbourhood import padded
+from mpslab.core.parameters import Fluid, Scheme
+from mpslab.core.particles import FACE, FLUID
 from mpslab.kernels import viscosity
-from mpslab.keys import CaseError
-from mpslab.parameters import Fluid, Scheme
-from mpslab.particles import FACE, FLUID
+from mpslab.models import friction
 from mpslab.simulation import Simulation
 
 RATE, CONSTANT = 3.0, 0.2

@@ -10,10 +10,12 @@ import numpy as np
 import pytest
 from tanks import make_case
 
-from mpslab import checkpoint, files, journal, tank, vtkhdf
+from mpslab import tank
 from mpslab.cases import dumps
-from mpslab.files import DiskFull
-from mpslab.particles import make_particles
+from mpslab.core import files
+from mpslab.core.files import DiskFull
+from mpslab.core.particles import make_particles
+from mpslab.output import checkpoint, journal, vtkhdf
 from mpslab.simulation import Simulation
 
 FRAMED = {"output.interval": 0.002, "output.checkpoint": 0.004, "time.end": 0.02,

@@ -6,14 +6,15 @@ from ranks import alone, start
 from scipy.spatial import cKDTree
 from tanks import CLASSIC, SINGLE, closest, flow_of, make_case, number_density_over_n0, run
 
-from mpslab import geometry, load_case
+from mpslab import load_case
 from mpslab.cases import dumps
 from mpslab.cases.reader import loads
-from mpslab.gauges import probe
-from mpslab.keys import CaseError
-from mpslab.particles import FACE, FILLER, FIRST_SOLID
-from mpslab.preflight import preflight
+from mpslab.core.gauges import probe
+from mpslab.core.keys import CaseError
+from mpslab.core.particles import FACE, FILLER, FIRST_SOLID
+from mpslab.run.preflight import preflight
 from mpslab.simulation import Simulation
+from mpslab.solids import layout
 from mpslab.solids.collection import solids_of
 from mpslab.solids.piston import make_paddle
 
@@ -50,7 +51,7 @@ def rise(case, time):
 @pytest.mark.parametrize(("radius", "columns"), [(2.1, 4), (2.6, 6), (3.1, 6)])
 def test_gate_stands_onshore_of_its_place_and_takes_the_room_of_the_water(radius, columns):
     case = tank_with(gate(), **{"scheme.effective_radius": radius})
-    particles = geometry.build_particles(case)
+    particles = layout.build_particles(case)
     plate = particles.position[is_gate(particles)]
     wet = particles.position[particles.fluid, 0]
     assert len(plate) == columns * 20
@@ -67,7 +68,7 @@ def test_gate_stands_onshore_of_its_place_and_takes_the_room_of_the_water(radius
 @pytest.mark.parametrize("changes", [{}, WALLED], ids=["2-D", "3-D"])
 def test_lattice_goes_on_from_the_water_into_the_gate(changes):
     case = tank_with(gate(), **changes)
-    particles = geometry.build_particles(case)
+    particles = layout.build_particles(case)
     assert np.count_nonzero(is_gate(particles)) == 4 * 20 * (10 if changes else 1)
     below = particles.fluid & (particles.position[:, 2] < 0.01 - 2.0 * D0)
     np.testing.assert_allclose(number_density_over_n0(case, particles)[below], 1.0, rtol=SINGLE)
@@ -75,13 +76,13 @@ def test_lattice_goes_on_from_the_water_into_the_gate(changes):
 
 def test_gate_on_a_slope_is_clear_of_the_bed():
     bed = {"tank.bed": [[0.0, 0.0], [0.02, 0.0], [0.06, 0.02]]}
-    particles = geometry.build_particles(tank_with(gate(), water=[], **bed))
+    particles = layout.build_particles(tank_with(gate(), water=[], **bed))
     assert np.count_nonzero(is_gate(particles)) > 30
     assert closest(particles.position) > 0.7 * D0
 
 
 def test_gate_starts_with_the_pressure_of_the_water_beside_it():
-    particles = geometry.build_particles(tank_with(gate()))
+    particles = layout.build_particles(tank_with(gate()))
     first = is_gate(particles) & (particles.role == FACE)
     first &= (particles.position[:, 0] < 0.03 + D0)
     exact = WEIGHT * np.maximum(0.03 - particles.position[first, 2], 0.0)

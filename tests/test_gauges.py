@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from mpslab.gauges import probe, surface_elevation
-from mpslab.particles import FACE, FILLER, FLUID
+from mpslab.core.gauges import probe, surface_elevation
+from mpslab.core.particles import FACE, FILLER, FLUID
 
 D0 = 0.002
 TOP = 20 * D0

@@ -5,11 +5,12 @@ import pytest
 from scipy.spatial import cKDTree
 from tanks import closest, flow_of, make_case, neighbors_of, number_density_over_n0
 
-from mpslab import bed as beds
-from mpslab import geometry, load_case
-from mpslab.particles import FACE, FILLER, PISTON
-from mpslab.settling import settle
-from mpslab.stencil import make_stencil
+from mpslab import load_case
+from mpslab.core import bed as beds
+from mpslab.core.particles import FACE, FILLER, PISTON
+from mpslab.core.stencil import make_stencil
+from mpslab.run.settling import settle
+from mpslab.solids import layout
 
 D0 = 0.002
 PAPER = {"particles.spacing": D0, "tank.width": 0.0, "particles.jitter": 0.0}
@@ -29,14 +30,14 @@ BEDS = {
 def paper_slice(**changes):
     """Slice of the paper's tank at d0 = 2 mm, without jitter."""
     case = load_case("plunging_breaker", {**PAPER, **changes})
-    return case, geometry.build_particles(case, BACKMOST)
+    return case, layout.build_particles(case, BACKMOST)
 
 
 def tank_with(bed, **changes):
     case = make_case(
         {"tank.length": 0.4, "tank.depth": 0.06, "tank.bed": BEDS[bed], **changes}
     )  # fmt: skip
-    return case, geometry.build_particles(case)
+    return case, layout.build_particles(case)
 
 
 def test_slice_of_the_papers_tank_has_4000_fluid_particles():
@@ -49,8 +50,8 @@ def test_slice_of_the_papers_tank_has_4000_fluid_particles():
 def test_papers_tank_in_3d_has_about_its_96000_particles():
     """16 to 20 rows across (reference 6.1); 17 rows at d0 = 2 mm."""
     case = load_case("plunging_breaker", {"particles.spacing": D0, "tank.width": 0.034})
-    particles = geometry.build_particles(case, BACKMOST)
-    assert geometry.rows_across(case) == 17
+    particles = layout.build_particles(case, BACKMOST)
+    assert layout.rows_across(case) == 17
     assert len(particles) == pytest.approx(96_000, rel=0.05)
     assert np.count_nonzero(particles.fluid) == pytest.approx(68_000, rel=0.01)
 
@@ -230,7 +231,7 @@ def test_piston_stands_at_its_place_with_its_dummies_behind():
 @pytest.mark.parametrize("backmost", [0.0, -0.0101, -0.02])
 def test_bed_reaches_behind_the_piston_at_its_backmost(backmost):
     case = load_case("plunging_breaker", PAPER)
-    particles = geometry.build_particles(case, backmost)
+    particles = layout.build_particles(case, backmost)
     bed = (particles.role == FACE) | (particles.role == FILLER)
     assert particles.position[bed, 0].min() < backmost - 2.0 * D0
 
@@ -248,4 +249,4 @@ def test_particles_start_at_rest_with_hydrostatic_pressure():
 
 def test_length_is_rounded_to_whole_spacings():
     case = make_case({"tank.length": 0.0413})
-    assert geometry.effective_length(case) == pytest.approx(0.042)
+    assert layout.effective_length(case) == pytest.approx(0.042)

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from tanks import SINGLE, closest, make_case, number_density_over_n0
 
-from mpslab import bed as beds
-from mpslab import geometry
-from mpslab.particles import FACE, FILLER, FLUID
+from mpslab.core import bed as beds
+from mpslab.core.particles import FACE, FILLER, FLUID
+from mpslab.solids import layout
 
 D0 = 0.002
 
@@ -15,7 +15,7 @@ def walled(**changes):
     """Small 3-D tank between side walls, 10 rows wide, without jitter."""
     tank = {"tank.length": 0.02, "tank.depth": 0.012, "tank.width": 0.02, "tank.periodic": False}
     case = make_case({**tank, **changes})
-    return case, geometry.build_particles(case)
+    return case, layout.build_particles(case)
 
 
 def test_side_walls_close_the_tank():
@@ -45,7 +45,7 @@ def test_side_walls_carry_pressure_only_along_the_tank():
 
 def test_periodic_tank_has_no_side_walls():
     case, particles = walled(**{"tank.periodic": True})
-    assert geometry.period(case) == pytest.approx(0.02)
+    assert layout.period(case) == pytest.approx(0.02)
     y = particles.position[:, 1]
     assert (y.min(), y.max()) == (pytest.approx(0.5 * D0), pytest.approx(0.02 - 0.5 * D0))
     n = number_density_over_n0(case, particles)
@@ -98,7 +98,7 @@ def test_disc_is_symmetric(across):
     size = across * D0
     disc = {**box([0.01, 0.0, 0.01], [0.01 + size, 0.0, 0.01 + size]), "shape": "disc"}
     tank = {"tank.length": 0.06, "tank.depth": 0.03, "tank.height": 0.06, "water": [disc]}
-    position = geometry.build_particles(make_case(tank)).position
+    position = layout.build_particles(make_case(tank)).position
     inside = np.all((position > [0.01, -1, 0.01]) & (position < 0.01 + size), axis=1)
     middle = np.round((position[inside] - 0.01) / D0 - 0.5 * across, 6)[:, [0, 2]]
     sites = {tuple(site) for site in middle}
@@ -109,7 +109,7 @@ def test_disc_is_symmetric(across):
 def test_floating_water_does_not_press_on_the_bed():
     disc = {**box([0.01, 0.0, 0.02], [0.03, 0.0, 0.04]), "shape": "disc"}
     case = make_case({"water": [disc]})
-    particles = geometry.build_particles(case)
+    particles = layout.build_particles(case)
     assert np.all(particles.pressure[~particles.fluid] == 0.0)
     assert particles.pressure.max() > 1000.0 * 9.81 * 0.015
 
@@ -117,7 +117,7 @@ def test_floating_water_does_not_press_on_the_bed():
 def test_disc_beside_an_obstacle_leaves_its_place_free():
     disc = {**box([0.01, 0.0, 0.0], [0.03, 0.0, 0.02]), "shape": "disc"}
     obstacle = box([0.02, 0.0, 0.0], [0.04, 0.0, 0.02])
-    particles = geometry.build_particles(make_case({"water": [disc], "obstacle": [obstacle]}))
+    particles = layout.build_particles(make_case({"water": [disc], "obstacle": [obstacle]}))
     x = particles.position[particles.fluid, 0]
     assert x.max() < 0.02
     assert len(x) == pytest.approx(0.5 * np.pi * 5.0**2, rel=0.05)
@@ -127,7 +127,7 @@ def test_water_box_on_a_slope_stands_on_the_bed():
     bed = [[0.0, 0.0], [0.1, 0.0], [0.4, 0.1]]
     water = [box([0.15, 0.0, 0.0], [0.2, 0.0, 0.06])]
     case = make_case({"tank.length": 0.4, "tank.depth": 0.06, "tank.bed": bed, "water": water})
-    particles = geometry.build_particles(case)
+    particles = layout.build_particles(case)
     x, z = particles.position[particles.fluid, 0], particles.position[particles.fluid, 2]
     assert (x.min(), x.max()) == (pytest.approx(0.151), pytest.approx(0.199))
     assert np.all(z > beds.elevation(case.tank.bed, x))

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from tanks import SINGLE, cloud, inside, lattice, near_of, particles_at
 
-from mpslab import plugins
-from mpslab.particles import FACE, FILLER, FLUID
-from mpslab.stencil import make_stencil
+from mpslab.core import plugins
+from mpslab.core.particles import FACE, FILLER, FLUID
+from mpslab.core.stencil import make_stencil
 
 NAMES = plugins.names("gradients")
 MODELS = {name: plugins.load("gradients", name) for name in NAMES}

@@ -7,7 +7,7 @@ import sys
 import pytest
 from ranks import ROOT, SMALL, TIMEOUT, environment
 
-from mpslab import headcount
+from mpslab.parallel import headcount
 
 STEP = {"SLURM_PROCID": "1", "SLURM_STEP_ID": "0", "SLURM_NTASKS": "4"}
 BATCH = {"SLURM_JOB_ID": "9", "SLURM_NTASKS": "4", "SLURM_NPROCS": "4", "SLURM_PROCID": "0"}

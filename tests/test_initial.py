@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from tanks import make_case
 
-from mpslab import geometry, initial
-from mpslab.keys import CaseError
+from mpslab.core.keys import CaseError
+from mpslab.run import initial
+from mpslab.solids import layout
 
 DISC = {"from": [0.01, 0.0, 0.01], "to": [0.03, 0.01, 0.024], "shape": "disc"}
 RATE = 7.0
@@ -15,7 +16,7 @@ def water_of(role, **changes):
     tank = {"tank.length": 0.05, "tank.height": 0.05, "particles.jitter": 0.1, "water": [DISC]}
     start = {"initial.type": role, "initial.rate": RATE}
     case = make_case({**tank, **start, **changes})
-    particles = geometry.build_particles(case)
+    particles = layout.build_particles(case)
     initial.set_velocity(case, particles, np.sum)
     assert np.all(particles.velocity[~particles.fluid] == 0.0)
     return particles.take(particles.fluid)

@@ -7,9 +7,9 @@ import h5py
 import numpy as np
 import pytest
 
-from mpslab import journal, vtkhdf
-from mpslab.files import remove_drafts, replacing
-from mpslab.particles import make_particles
+from mpslab.core.files import remove_drafts, replacing
+from mpslab.core.particles import make_particles
+from mpslab.output import journal, vtkhdf
 
 
 @pytest.fixture

@@ -5,9 +5,10 @@ import pytest
 from scipy.sparse import csr_array, diags_array
 from tanks import cloud, inside, lattice, near_of, particles_at
 
-from mpslab import plugins, pressure
-from mpslab.particles import FACE, FILLER, FLUID
-from mpslab.stencil import make_stencil
+from mpslab.core import plugins
+from mpslab.core.particles import FACE, FILLER, FLUID
+from mpslab.core.stencil import make_stencil
+from mpslab.pressure import equation
 
 NAMES = plugins.names("laplacians")
 DENSITY = 1000.0
@@ -19,7 +20,7 @@ def matrix(particles, dim, radius, name, width=0.0):
     stencil = make_stencil(dim, 1.0, radius, width)
     terms = plugins.load("laplacians", name).pair_terms(stencil)
     near = near_of(particles, dim, radius, width, reach=radius * 1.3)
-    system, rows = pressure.assemble(near, stencil, terms, DENSITY, np.zeros(len(particles)))
+    system, rows = equation.assemble(near, stencil, terms, DENSITY, np.zeros(len(particles)))
     m = len(system)
     off = csr_array((system.value, system.column, system.row), (m, m))
     return (off + diags_array(system.diagonal)).tocsr(), rows

@@ -15,10 +15,11 @@ import pytest
 from ranks import SMALL, TIMEOUT, environment, tank
 from tanks import make_case
 
-from mpslab import cases, lock, measures, simulation
+from mpslab import cases, measures, simulation
 from mpslab import tank as command_line
-from mpslab.lock import FolderLock, InUse
-from mpslab.output import RunFolder
+from mpslab.output import lock
+from mpslab.output.lock import FolderLock, InUse
+from mpslab.output.run_folder import RunFolder
 from mpslab.simulation import Simulation
 
 QUICK = {"output.checkpoint": 0.002, "output.interval": 0.002, "time.end": 0.01}

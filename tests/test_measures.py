@@ -8,12 +8,12 @@ import pytest
 from tanks import make_case
 
 from mpslab import measures
-from mpslab.diagnostics import piston_force
-from mpslab.particles import FACE, FILLER, FLUID, PISTON, WATER
-from mpslab.pictures import draw_run
-from mpslab.results import open_run
+from mpslab.analysis.pictures import draw_run
+from mpslab.analysis.results import open_run
+from mpslab.core.diagnostics import piston_force
+from mpslab.core.particles import FACE, FILLER, FLUID, PISTON, WATER
+from mpslab.core.stencil import make_stencil
 from mpslab.simulation import Simulation
-from mpslab.stencil import make_stencil
 
 STANDING = {
     "initial.type": "standing_wave", "initial.amplitude": 0.002, "time.end": 0.1,

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from ranks import ROOT
 
-from mpslab import Simulation, deflation, load_case
-from mpslab.domain import Domain
-from mpslab.solvers import deflated
+from mpslab import Simulation, load_case
+from mpslab.parallel.domain import Domain
+from mpslab.pressure import deflation
+from mpslab.pressure.solvers import deflated
 
 sys.path.append(str(ROOT))  # last: the package under test goes first
 

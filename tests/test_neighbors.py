@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from tanks import neighbors_of
 
 from mpslab.core.cells import make_cells
-from mpslab.neighbors import NeighborList
+from mpslab.core.neighbors import NeighborList
 
 GRID = 1.0 / 16.0
 EXAMPLES = settings(max_examples=150, deadline=None, derandomize=True, database=None)

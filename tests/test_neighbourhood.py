@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 from tanks import SINGLE, cloud, near_of, neighbors_of, particles_at
 
-from mpslab import plugins, pressure, walls
+from mpslab.core import plugins
 from mpslab.core.neighbourhood import Neighbourhood, padded
+from mpslab.core.particles import FACE, FILLER, FLUID
+from mpslab.core.stencil import make_stencil
 from mpslab.kernels import repulsion, viscosity
-from mpslab.particles import FACE, FILLER, FLUID
-from mpslab.stabilisers.shifting import LONGEST
-from mpslab.stencil import make_stencil
+from mpslab.models import wall_pressure
+from mpslab.models.stabilisers.shifting import LONGEST
+from mpslab.pressure import equation
 
 WIDTH = 7.0
 DIMS = [2, 3]
@@ -167,7 +169,7 @@ def test_matrix_and_flux_of_walls_are_the_sums_of_their_formulas(dim, name):
     laplacian = one + first / pairs.distance + third / pairs.distance**3
     laplacian[pairs.distance >= stencil.radius] = 0.0
     n = len(particles)
-    system, rows = pressure.assemble(near, stencil, (one, first, third), 2.0, np.zeros(n),
+    system, rows = equation.assemble(near, stencil, (one, first, third), 2.0, np.zeros(n),
                                      particles.fluid, np.ones(n))  # fmt: skip
     expected = -0.5 * laplacian[np.ix_(pairs.water, pairs.water)]
     found = np.zeros_like(expected)
@@ -176,7 +178,7 @@ def test_matrix_and_flux_of_walls_are_the_sums_of_their_formulas(dim, name):
     assert_close(system.diagonal, 1.0 - expected.sum(axis=1))
     pull = np.random.default_rng(3).normal(size=(n, 3))
     flux = np.einsum("ij,ja,ija->i", laplacian * ~pairs.water, pull, pairs.r)
-    assert_close(walls.flux(near, stencil, (one, first, third), pull), flux)
+    assert_close(wall_pressure.flux(near, stencil, (one, first, third), pull), flux)
 
 
 @pytest.mark.parametrize("dim", DIMS)
@@ -187,7 +189,7 @@ def test_pressure_of_walls_is_the_mean_of_its_formula(dim):
     w = pairs.w[pairs.water][:, ~pairs.water]
     rise = 5.0 * np.einsum("ja,ija->ij", pull, pairs.r)[pairs.water][:, ~pairs.water]
     expected = (w * (p[pairs.water][:, None] + rise)).sum(axis=0) / w.sum(axis=0)
-    walls.fill(near, 5.0, pull, clip=False)
+    wall_pressure.fill(near, 5.0, pull, clip=False)
     assert_close(near.particles.pressure[~pairs.water], expected)
     np.testing.assert_array_equal(near.particles.pressure[pairs.water], p[pairs.water])
 

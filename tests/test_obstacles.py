@@ -5,14 +5,14 @@ import pytest
 from scipy.spatial import cKDTree
 from tanks import CLASSIC, SINGLE, closest, flow_of, make_case, number_density_over_n0, run
 
-from mpslab import geometry, load_case
-from mpslab.gauges import probe, surface_elevation
-from mpslab.keys import CaseError
-from mpslab.particles import FACE, FILLER, FLUID, make_particles
-from mpslab.preflight import preflight
-from mpslab.solids import obstacles
+from mpslab import load_case
+from mpslab.core.gauges import probe, surface_elevation
+from mpslab.core.keys import CaseError
+from mpslab.core.particles import FACE, FILLER, FLUID, make_particles
+from mpslab.run.guard import find_lost
+from mpslab.run.preflight import preflight
+from mpslab.solids import layout, obstacles
 from mpslab.solids.piston import make_paddle
-from mpslab.watch import find_lost
 
 D0, WEIGHT = 0.002, 1000.0 * 9.81
 WALLED = {"tank.width": 0.02, "tank.periodic": False}
@@ -35,7 +35,7 @@ def tank_with(*boxes, **changes):
     """Tank of 30 x 15 particles with obstacles in it."""
     tank = {"tank.length": 0.06, "tank.depth": 0.03, "obstacle": list(boxes)}
     case = make_case({**tank, **changes})
-    return case, geometry.build_particles(case)
+    return case, layout.build_particles(case)
 
 
 def within(position, start, end, axes=(0, 2)):

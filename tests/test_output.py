@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from tanks import add_step, open_tables
 
-from mpslab import columns, output, provenance, tables
-from mpslab.output import CsvTable, RunFolder
+from mpslab.core import columns
+from mpslab.output import provenance, run_folder, tables
+from mpslab.output.run_folder import CsvTable, RunFolder
 
 STEPS_HEADER = (
     "step,time [s],dt [s],dt_limit,iterations,residual,seconds,max_speed [m/s],"
@@ -229,7 +230,7 @@ def test_record_of_the_run(folder):
 def test_versions_and_commit_are_asked_for_by_who_writes_the_record_only(tmp_path, monkeypatch):
     """Other ranks know the folder as well, and must start no git."""
     asked = []
-    monkeypatch.setattr(output, "environment", lambda: asked.append(1) or {})
+    monkeypatch.setattr(run_folder, "environment", lambda: asked.append(1) or {})
     folder = RunFolder.create(tmp_path / "run")
     RunFolder(tmp_path / "run")
     assert asked == []

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mpslab.overturning import find_crest, find_front
+from mpslab.analysis.overturning import find_crest, find_front
 
 D0 = 0.002
 

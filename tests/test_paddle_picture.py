@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
-from mpslab import cases, paddle_picture, tank, waves
-from mpslab.keys import CaseError
-from mpslab.preflight import preflight
+from mpslab import cases, tank
+from mpslab.analysis import paddle_picture
+from mpslab.core.keys import CaseError
+from mpslab.run.preflight import preflight
+from mpslab.theory import waves
 
 
 def test_spectrum_holds_the_variance_of_the_wave():

@@ -13,8 +13,10 @@ import numpy as np
 import pytest
 from ranks import ROOT, SMALL, TIMEOUT, environment, tank
 
-from mpslab import checkpoint, communicator, launch, open_run
-from mpslab.stopwatch import PHASES
+from mpslab import open_run
+from mpslab.core.stopwatch import PHASES
+from mpslab.output import checkpoint
+from mpslab.parallel import communicator, launch
 
 FILES = ("checkpoint.h5", "gauges.csv", "probes.csv", "lost.csv")
 END = ["--until", "0.02", "--no-pictures"]

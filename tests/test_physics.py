@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from tanks import CLASSIC, flow_of, make_case, run
 
-from mpslab import Simulation, initial, load_case, plugins, timestep
-from mpslab.diagnostics import max_speed, volume
-from mpslab.particles import FACE
-from mpslab.step import advance
+from mpslab import Simulation, load_case
+from mpslab.core import plugins, timestep
+from mpslab.core.diagnostics import max_speed, volume
+from mpslab.core.particles import FACE
+from mpslab.run import initial
+from mpslab.run.step import advance
 
 D0, DENSITY, GRAVITY = 0.002, 1000.0, 9.81
 PAPER = {"scheme.gradient": "cmps_soft", "scheme.gradient_radius": 3.1, "scheme.walls": "copied"}

@@ -8,12 +8,14 @@ from matplotlib.image import imread
 from synthetic import write_run
 from tanks import open_tables
 
-from mpslab import cases, headings, pictures, snapshots, vtkhdf
-from mpslab import panels as panels_of
-from mpslab.kinds import DUMMY, FLUID, GATE, GATE_DUMMY, WALL
-from mpslab.output import RunFolder
-from mpslab.particles import make_particles
-from mpslab.results import Frames, open_run
+from mpslab import cases
+from mpslab.analysis import headings, pictures, snapshots
+from mpslab.analysis import panels as panels_of
+from mpslab.analysis.results import Frames, open_run
+from mpslab.core.kinds import DUMMY, FLUID, GATE, GATE_DUMMY, WALL
+from mpslab.core.particles import make_particles
+from mpslab.output import vtkhdf
+from mpslab.output.run_folder import RunFolder
 
 SPACING = 0.004
 

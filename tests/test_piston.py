@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from tanks import flow_of, make_case
 
-from mpslab import geometry
-from mpslab.communicator import Alone
-from mpslab.paddle import from_motion, sample_times
-from mpslab.particles import FACE, FILLER, FLUID
+from mpslab.core.particles import FACE, FILLER, FLUID
+from mpslab.parallel.communicator import Alone
+from mpslab.solids import layout
 from mpslab.solids.collection import solids_of
+from mpslab.solids.paddle import from_motion, sample_times
 from mpslab.solids.piston import make_paddle
 
 D0 = 0.002
@@ -33,7 +33,7 @@ def tank(request):
 def tank_of(path):
     case = make_case({"tank.length": 0.1, "wavemaker.type": "still"})
     paddle = from_motion(path, sample_times(1.0, PERIOD), 0.0, "drawn")
-    particles = geometry.build_particles(case, paddle.backmost)
+    particles = layout.build_particles(case, paddle.backmost)
     return particles, begun(case, paddle, particles), paddle
 
 
@@ -159,7 +159,7 @@ def test_water_is_never_touched(tank):
 
 def test_tank_without_wavemaker_has_a_fixed_wall():
     case = make_case()
-    particles = geometry.build_particles(case)
+    particles = layout.build_particles(case)
     assert make_paddle(case) is None
     piston = begun(case, None, particles)
     before = particles.position.copy(), particles.role.copy()

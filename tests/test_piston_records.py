@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from mpslab.wavemakers import file
+from mpslab.solids.wavemakers import file
 
 END = 3.0
 TIMES = np.arange(0.0, END + 0.02, 0.04)

@@ -5,7 +5,7 @@ from types import ModuleType
 
 import pytest
 
-from mpslab import plugins
+from mpslab.core import plugins
 
 
 @pytest.fixture

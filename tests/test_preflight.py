@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 from tanks import make_case
 
-from mpslab import cases, census, geometry
-from mpslab.keys import CaseError
-from mpslab.kinds import FLUID, KIND_NAMES, kinds_of
-from mpslab.parameters import LISTS
-from mpslab.preflight import preflight
-from mpslab.preflight_text import sections
+from mpslab import cases
+from mpslab.core.keys import CaseError
+from mpslab.core.kinds import FLUID, KIND_NAMES, kinds_of
+from mpslab.core.parameters import LISTS
+from mpslab.run.preflight import preflight
+from mpslab.run.preflight_text import sections
 from mpslab.simulation import Simulation
+from mpslab.solids import census, layout
 from mpslab.solids.piston import make_paddle
 
 BOX = {"from": [0.66, 0.03, 0.0], "to": [0.82, 0.09, 0.161]}
@@ -27,7 +28,7 @@ def findings(case, section):
 
 def laid_out(case):
     paddle = make_paddle(case)
-    particles = geometry.build_particles(case, paddle.backmost if paddle else 0.0)
+    particles = layout.build_particles(case, paddle.backmost if paddle else 0.0)
     return np.bincount(kinds_of(case, particles), minlength=len(KIND_NAMES))
 
 
@@ -110,7 +111,7 @@ def test_check_lays_out_nothing(monkeypatch):
     def refuse(*arguments):
         raise AssertionError
 
-    monkeypatch.setattr(geometry, "build_particles", refuse)
+    monkeypatch.setattr(layout, "build_particles", refuse)
     assert preflight(cases.load_case("plunging_breaker")).text()
 
 
@@ -165,7 +166,7 @@ def test_frames_and_tables_are_told_with_their_size(tmp_path):
 
 
 def test_run_beyond_the_memory_of_the_machine_brings_a_warning(monkeypatch):
-    from mpslab import memory
+    from mpslab.core import memory
 
     case = cases.load_case("hydrostatic")
     assert memory.physical() > 1e8

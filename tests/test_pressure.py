@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from tanks import inside, lattice, near_of, particles_at
 
-from mpslab import plugins, pressure
-from mpslab.laplacians.standard import pair_terms
-from mpslab.particles import FACE, FILLER, FLUID
-from mpslab.solvers import iccg
-from mpslab.stencil import make_stencil
+from mpslab.core import plugins
+from mpslab.core.particles import FACE, FILLER, FLUID
+from mpslab.core.stencil import make_stencil
+from mpslab.models.laplacians.standard import pair_terms
+from mpslab.pressure import equation
+from mpslab.pressure.solvers import iccg
 
 DENSITY, GRAVITY = 1000.0, 9.81
 
@@ -17,7 +18,7 @@ def assembled(particles, dim=3, source=0.0, laplacian=pair_terms, width=0.0):
     stencil = make_stencil(dim, 1.0, 2.1, width)
     near = near_of(particles, dim, width=width)
     right = np.broadcast_to(np.asarray(source, float), len(particles)).copy()
-    return pressure.assemble(near, stencil, laplacian(stencil), DENSITY, right)
+    return equation.assemble(near, stencil, laplacian(stencil), DENSITY, right)
 
 
 def dense(system):
@@ -70,7 +71,7 @@ def test_particle_without_any_neighbour_of_its_kind_gets_a_finite_pressure():
     particles = particles_at(lattice(3, 2), FILLER)
     particles.role[inside(particles.position, 0)] = FLUID
     system, rows = assembled(particles, source=1e4)
-    report = pressure.solve(system, rows, particles, iccg, 1e-8, 100, True)
+    report = equation.solve(system, rows, particles, iccg, 1e-8, 100, True)
     assert report.converged
     assert np.isfinite(particles.pressure).all()
 
@@ -81,9 +82,9 @@ def test_empty_row_does_not_spoil_the_others():
     both = particles_at(np.vstack([particles.position, lost.position]))
     both.surface[:-1] = particles.surface
     system, rows = assembled(both, source=5.0)
-    assert pressure.solve(system, rows, both, iccg, 1e-10, 200, True).converged
+    assert equation.solve(system, rows, both, iccg, 1e-10, 200, True).converged
     system, rows = assembled(particles, source=5.0)
-    pressure.solve(system, rows, particles, iccg, 1e-10, 200, True)
+    equation.solve(system, rows, particles, iccg, 1e-10, 200, True)
     np.testing.assert_allclose(both.pressure[:-1], particles.pressure, rtol=1e-7)
 
 
@@ -109,7 +110,7 @@ def test_hydrostatic_column_is_solved_right(solver, dim):
     carries = particles.carries_pressure
     exact = np.where(carries, DENSITY * GRAVITY * (11.0 - particles.position[:, 2]), 0.0)
     system.right[:] = dense(system) @ exact[rows]
-    report = pressure.solve(
+    report = equation.solve(
         system, rows, particles, plugins.load("solvers", solver), 1e-12, 500, True
     )
     assert report.converged
@@ -132,7 +133,7 @@ def test_hydrostatic_pressure_needs_a_source_only_at_the_bottom(dim):
 def test_negative_pressure_is_clipped_if_asked(clip):
     particles = column(3)
     system, rows = assembled(particles, source=np.where(particles.position[:, 0] < 3, -1.0, 1.0))
-    pressure.solve(system, rows, particles, iccg, 1e-8, 200, clip)
+    equation.solve(system, rows, particles, iccg, 1e-8, 200, clip)
     assert (particles.pressure.min() < 0.0) == (not clip)
     assert particles.pressure.max() > 0.0
 
@@ -140,8 +141,8 @@ def test_negative_pressure_is_clipped_if_asked(clip):
 def test_solve_starts_from_the_last_pressure():
     particles = column(3)
     system, rows = assembled(particles, source=1.0)
-    first = pressure.solve(system, rows, particles, iccg, 1e-8, 200, True)
-    again = pressure.solve(system, rows, particles, iccg, 1e-7, 200, True)
+    first = equation.solve(system, rows, particles, iccg, 1e-8, 200, True)
+    again = equation.solve(system, rows, particles, iccg, 1e-7, 200, True)
     assert first.iterations > 3
     assert again.iterations == 0
 
@@ -150,7 +151,7 @@ def test_particles_without_a_row_have_no_pressure():
     particles = column(3)
     particles.pressure[:] = 77.0
     system, rows = assembled(particles, source=1.0)
-    pressure.solve(system, rows, particles, iccg, 1e-8, 200, True)
+    equation.solve(system, rows, particles, iccg, 1e-8, 200, True)
     without = np.setdiff1d(np.arange(len(particles)), rows)
     assert set(particles.role[without]) == {FLUID, FILLER}
     assert np.all(particles.pressure[without] == 0.0)

@@ -10,9 +10,9 @@ import pytest
 from tanks import make_case
 
 import mpslab
-from mpslab import plugins
-from mpslab.gradients import corrected
-from mpslab.keys import CaseError
+from mpslab.core import plugins
+from mpslab.core.keys import CaseError
+from mpslab.models.gradients import corrected
 
 QUICK = {"time.end": 0.006, "output.checkpoint": 0.002}
 MODELS = {
@@ -203,7 +203,10 @@ def test_a_module_is_found_by_its_name_with_a_dot_also_when_a_run_goes_on(tmp_pa
     ("gradient", "mine", "family = 'gradient': must be one of gradients"),
     ("gradients", "cmps", "name = 'cmps': must be another name than"),
     ("gradients", "a.b", "name = 'a.b': must be a word"),
-    ("sources", "mine", "scheme.source = 'mine': has no source; must have what mpslab.sources"),
+    (
+        "sources", "mine",
+        "scheme.source = 'mine': has no source; must have what mpslab.models.sources",
+    ),
 ])  # fmt: skip
 def test_a_model_that_cannot_be_added_is_refused(family, name, said, added):
     with pytest.raises(CaseError) as caught:

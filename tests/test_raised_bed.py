@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from tanks import flow_of, make_case
 
-from mpslab import initial
-from mpslab.keys import CaseError
-from mpslab.preflight import preflight
+from mpslab.core.keys import CaseError
+from mpslab.run import initial
+from mpslab.run.preflight import preflight
 from mpslab.solids.piston import make_paddle
 
 WAVE = {"wavemaker.type": "linear", "wavemaker.height": 0.01, "wavemaker.period": 0.777}

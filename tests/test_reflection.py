@@ -5,7 +5,7 @@ import pytest
 from seas import GRAVITY, sea
 
 from mpslab.analysis import reflection
-from mpslab.waves import wave_number
+from mpslab.theory.waves import wave_number
 
 HEIGHT, PERIOD, DEPTH, STEP = 0.1, 1.5, 0.5, 0.05
 LENGTH = 2.0 * np.pi / wave_number(PERIOD, DEPTH, GRAVITY)

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from tanks import csv_rows
 
-from mpslab import CaseError, Simulation, checkpoint, inputs, load_case, restart, tank
+from mpslab import CaseError, Simulation, load_case, tank
+from mpslab.cases import inputs
+from mpslab.output import checkpoint, restart
 
 # The piston goes back behind its place of rest only after the first end.
 RECORD = "0,0\n0.1,0.004\n0.2,0.008\n0.35,-0.009\n"

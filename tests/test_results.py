@@ -9,12 +9,13 @@ import pytest
 from tanks import make_case, open_tables
 
 import mpslab
-from mpslab import journal, tank, vtkhdf
-from mpslab.output import RunFolder
-from mpslab.particles import make_particles
-from mpslab.preflight import preflight
-from mpslab.preflight_text import sections
-from mpslab.results import Frames, Run
+from mpslab import tank
+from mpslab.analysis.results import Frames, Run
+from mpslab.core.particles import make_particles
+from mpslab.output import journal, vtkhdf
+from mpslab.output.run_folder import RunFolder
+from mpslab.run.preflight import preflight
+from mpslab.run.preflight_text import sections
 from mpslab.simulation import Simulation
 
 DRIVEN = {

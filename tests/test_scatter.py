@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from tanks import lattice
 
-from mpslab.scatter import isolated_share, roughness
+from mpslab.analysis.scatter import isolated_share, roughness
 
 LINE = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]])
 

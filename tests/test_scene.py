@@ -5,8 +5,8 @@ import sys
 import numpy as np
 import pytest
 
-from mpslab.scenes import light, scene
-from mpslab.scenes.view import View, fitted
+from mpslab.analysis.scenes import light, scene
+from mpslab.analysis.scenes.view import View, fitted
 
 D0 = 0.002
 BOX = ((0.0, 0.1), (0.0, 0.032), (0.0, 0.05))

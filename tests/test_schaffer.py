@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from mpslab import waves
-from mpslab.theory import dispersion, schaffer
+from mpslab.theory import dispersion, schaffer, waves
 
 G, DEPTH = 9.81, 1.0
 

@@ -10,7 +10,7 @@ from seas import GRAVITY, sea, write_run
 
 from mpslab import sea as command
 from mpslab.analysis import arrays, graphs, page, readings, windows
-from mpslab.waves import group_celerity, wave_number
+from mpslab.theory.waves import group_celerity, wave_number
 
 HEIGHT, PERIOD, DEPTH, STEP, KR = 0.1, 1.5, 0.5, 0.05, 0.5
 PLACES = [5.0, 5.3, 5.8, 6.7]

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from mpslab import plugins, waves
-from mpslab.parameters import Wavemaker
-from mpslab.theory import dispersion, schaffer, spectra
-from mpslab.wavemakers import _sea, _table, irregular
+from mpslab.core import plugins
+from mpslab.core.parameters import Wavemaker
+from mpslab.solids.wavemakers import _sea, _table, irregular
+from mpslab.theory import dispersion, schaffer, spectra, waves
 
 G, DEPTH, HEIGHT, PERIOD = 9.81, 0.3, 0.03, 1.2
 END = 150 * PERIOD

@@ -3,7 +3,7 @@
 import pytest
 
 from mpslab import cases
-from mpslab.keys import CaseError
+from mpslab.core.keys import CaseError
 
 
 def refusal(action, *arguments):

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from tanks import flow_of, make_case, number_density_over_n0
 
-from mpslab import Simulation, load_case, settling
-from mpslab.stencil import make_stencil
+from mpslab import Simulation, load_case
+from mpslab.core.stencil import make_stencil
+from mpslab.run import settling
 
 D0, GRAVITY, DENSITY = 0.002, 9.81, 1000.0
 SETTLED = {"scheme.settling": 400}

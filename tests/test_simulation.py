@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import mpslab
-from mpslab import checkpoint
+from mpslab.output import checkpoint
 
 BREAKER_2D = {
     "tank.width": 0.0,

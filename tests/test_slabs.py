@@ -7,12 +7,12 @@ from hypothesis import strategies as st
 from tanks import flow_of, make_case, near_of, particles_at, run
 from test_solvers import as_matrix, dense_factor
 
-from mpslab import pressure
-from mpslab.domain import Domain
-from mpslab.laplacians.standard import pair_terms
-from mpslab.slabs import make_slabs
-from mpslab.solvers import iccg, piccg, scg
-from mpslab.stencil import make_stencil
+from mpslab.core.stencil import make_stencil
+from mpslab.models.laplacians.standard import pair_terms
+from mpslab.parallel.domain import Domain
+from mpslab.parallel.slabs import make_slabs
+from mpslab.pressure import equation
+from mpslab.pressure.solvers import iccg, piccg, scg
 
 RADIUS = 2.1
 TANK = {"tank.width": 0.016, "tank.periodic": True, "particles.jitter": 0.01}
@@ -30,7 +30,7 @@ def system_by_slab(long=24, high=5, by_slab=True):
     particles, _ = domain.share_out(particles)
     source = np.random.default_rng(2).normal(size=len(particles))
 
-    return pressure.assemble(
+    return equation.assemble(
         near_of(particles, 3, RADIUS), stencil, pair_terms(stencil), 1000.0, source,
         domain=domain if by_slab else None,
     )  # fmt: skip

@@ -4,16 +4,17 @@ import numpy as np
 import pytest
 from tanks import closest, flow_of, make_case, particles_at, run
 
-from mpslab import Simulation, geometry
-from mpslab.census import census
-from mpslab.keys import CaseError
-from mpslab.kinds import KIND_NAMES, kinds_of
-from mpslab.particles import FACE, FILLER, FIRST_SOLID
+from mpslab import Simulation
+from mpslab.core.keys import CaseError
+from mpslab.core.kinds import KIND_NAMES, kinds_of
+from mpslab.core.motion import Sine, displacement
+from mpslab.core.particles import FACE, FILLER, FIRST_SOLID
+from mpslab.run.guard import find_lost
+from mpslab.solids import layout
+from mpslab.solids.census import census
 from mpslab.solids.collection import solids_of
-from mpslab.solids.motion import Sine, displacement
 from mpslab.solids.piston import make_paddle
 from mpslab.solids.solid import Solid
-from mpslab.watch import find_lost
 
 D0 = 0.002
 FULL = {
@@ -41,7 +42,7 @@ def test_contract_particles_are_faces_and_fillers_that_lie_in_their_solid(case):
 
 
 def test_contract_water_is_in_no_solid(case):
-    solids, particles = solids_of(case, make_paddle(case)), geometry.build_particles(case)
+    solids, particles = solids_of(case, make_paddle(case)), layout.build_particles(case)
     water = particles.position[particles.fluid]
     for solid in solids.bodies.values():
         assert not solid.holds(water).any(), solid.name
@@ -49,7 +50,7 @@ def test_contract_water_is_in_no_solid(case):
 
 def test_contract_state_comes_back(case):
     paddle = make_paddle(case)
-    particles = geometry.build_particles(case, paddle.backmost)
+    particles = layout.build_particles(case, paddle.backmost)
     first, second = solids_of(case, paddle), solids_of(case, paddle)
     for solid in first.bodies.values():
         solid.begin(particles)
@@ -61,7 +62,7 @@ def test_contract_state_comes_back(case):
 
 def test_contract_velocity_is_that_of_the_move(case):
     paddle = make_paddle(case)
-    particles = geometry.build_particles(case, paddle.backmost)
+    particles = layout.build_particles(case, paddle.backmost)
     solids, before = solids_of(case, paddle), particles.position.copy()
     for solid in solids.bodies.values():
         solid.begin(particles)
@@ -116,7 +117,7 @@ def test_points_of_a_rolling_body_turn_about_its_axis():
 @pytest.mark.parametrize("bed", [[], [[0.0, 0.0], [0.02, 0.0], [0.04, 0.011]]])
 def test_lid_closes_the_tank(changes, bed):
     case = make_case({"tank.lid": True, "tank.height": 0.0301, "tank.bed": bed, **changes})
-    particles = geometry.build_particles(case)
+    particles = layout.build_particles(case)
     solid = particles.position[~particles.fluid]
     columns = np.unique(np.round(particles.position[particles.fluid, 0], 6))
     for x in columns:

@@ -6,11 +6,12 @@ from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import spsolve
 from tanks import cloud, inside, near_of, particles_at
 
-from mpslab import plugins, pressure
+from mpslab.core import plugins
+from mpslab.core.stencil import make_stencil
 from mpslab.kernels import sparse
-from mpslab.laplacians.standard import pair_terms
-from mpslab.sparse import PressureSystem
-from mpslab.stencil import make_stencil
+from mpslab.models.laplacians.standard import pair_terms
+from mpslab.pressure import equation
+from mpslab.pressure.system import PressureSystem
 
 NAMES = plugins.names("solvers")
 TOLERANCE = 1e-10
@@ -24,7 +25,7 @@ def water(dim=3, n=700, seed=1, radius=2.1):
     stencil = make_stencil(dim, 1.0, radius)
     source = np.random.default_rng(seed).normal(size=len(particles))
     near = near_of(particles, dim, radius)
-    return pressure.assemble(near, stencil, pair_terms(stencil), 1000.0, source)[0]
+    return equation.assemble(near, stencil, pair_terms(stencil), 1000.0, source)[0]
 
 
 def column_of_water():
@@ -35,7 +36,7 @@ def column_of_water():
     stencil = make_stencil(3, 1.0, 2.1)
     source = np.random.default_rng(4).normal(size=len(particles))
     near = near_of(particles, 3)
-    return pressure.assemble(near, stencil, pair_terms(stencil), 1000.0, source)[0]
+    return equation.assemble(near, stencil, pair_terms(stencil), 1000.0, source)[0]
 
 
 def as_matrix(system):

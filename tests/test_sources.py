@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from tanks import SINGLE, cloud, inside, lattice, near_of, particles_at, scheme
 
-from mpslab import plugins
-from mpslab.stencil import make_stencil
+from mpslab.core import plugins
+from mpslab.core.stencil import make_stencil
 
 NAMES = plugins.names("sources")
 DT = 1e-3

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from mpslab import waves
-from mpslab.theory import dispersion, spectra
+from mpslab.theory import dispersion, spectra, waves
 
 G, HEIGHT, PERIOD = 9.81, 2.0, 8.0
 F = spectra.ALL / PERIOD

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mpslab.stencil import lattice_offsets, make_stencil
+from mpslab.core.stencil import lattice_offsets, make_stencil
 
 # dim, effective radius [d0], neighbours, n0, lambda0 [d0^2]; summed by independent scripts.
 LATTICE = [

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from tanks import CLASSIC, flow_of, inside, make_case, run
 
-from mpslab.particles import PISTON
-from mpslab.step import advance
-from mpslab.stopwatch import PHASES
+from mpslab.core.particles import PISTON
+from mpslab.core.stopwatch import PHASES
+from mpslab.run.step import advance
 
 D0, DT = 0.002, 1e-4
 

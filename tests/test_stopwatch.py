@@ -2,8 +2,8 @@
 
 import pytest
 
-from mpslab import stopwatch
-from mpslab.stopwatch import COMMUNICATION, WAITING, WORK, Stopwatch
+from mpslab.core import stopwatch
+from mpslab.core.stopwatch import COMMUNICATION, WAITING, WORK, Stopwatch
 
 
 @pytest.fixture

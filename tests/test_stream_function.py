@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from mpslab import plugins, waves
-from mpslab.parameters import Wavemaker
-from mpslab.theory import stream_function
+from mpslab.core import plugins
+from mpslab.core.parameters import Wavemaker
+from mpslab.theory import stream_function, waves
 
 G = 9.81
 

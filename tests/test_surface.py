@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from tanks import SINGLE, cloud, inside, lattice, near_of, particles_at
 
-from mpslab.particles import FACE, FILLER, FLUID
-from mpslab.surface import mark_surface
+from mpslab.core.particles import FACE, FILLER, FLUID
+from mpslab.models.surface import mark_surface
 
 
 def marked(position, dim, radius=2.1, role=FLUID, search=None, threshold=0.97):

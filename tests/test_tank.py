@@ -12,7 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from mpslab import cases, checkpoint, tank
+from mpslab import cases, tank
+from mpslab.output import checkpoint
 
 QUICK = ["hydrostatic", "--set", "particles.spacing=0.004", "--set", "scheme.settling=0"]
 

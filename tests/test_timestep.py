@@ -4,9 +4,19 @@ import numpy as np
 import pytest
 from tanks import make_case, particles_at
 
-from mpslab import Simulation, timestep
-from mpslab.diagnostics import max_speed, max_speed_together
-from mpslab.particles import FACE, FILLER, FIRST_SOLID, FLUID, PISTON, TANK, WATER, make_particles
+from mpslab import Simulation
+from mpslab.core import timestep
+from mpslab.core.diagnostics import max_speed, max_speed_together
+from mpslab.core.particles import (
+    FACE,
+    FILLER,
+    FIRST_SOLID,
+    FLUID,
+    PISTON,
+    TANK,
+    WATER,
+    make_particles,
+)
 
 TIME = {
     "courant": 0.2, "compression": 0.05, "viscous": 0.25, "growth": 1.1, "maximum": 1e-3,

@@ -5,9 +5,10 @@ from dataclasses import replace
 import pytest
 from markupsafe import escape
 
-from mpslab import geometry, tank
-from mpslab.particles import FACE, ParticleSet
-from mpslab.plugins import load
+from mpslab import tank
+from mpslab.core.particles import FACE, ParticleSet
+from mpslab.core.plugins import load
+from mpslab.solids import layout
 from validation import report, result, suite
 from validation.work import FAILED, Outcome, Task, Work
 
@@ -59,14 +60,14 @@ def flip_source(monkeypatch):
 
 
 def leave_out_walls(monkeypatch):
-    build = geometry.build_particles
+    build = layout.build_particles
 
     def without(case, *more):
         particles = build(case, *more)
         keep = particles.role != FACE
         return ParticleSet(**{name: array[keep] for name, array in vars(particles).items()})
 
-    monkeypatch.setattr(geometry, "build_particles", without)
+    monkeypatch.setattr(layout, "build_particles", without)
 
 
 def test_still_water_as_it_is_has_its_pressure(tmp_path):

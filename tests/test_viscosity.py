@@ -5,8 +5,8 @@ import pytest
 from tanks import cloud, inside, lattice, near_of, particles_at
 
 from mpslab.core.neighbourhood import padded
+from mpslab.core.particles import FACE, FILLER, FLUID
 from mpslab.kernels import viscosity
-from mpslab.particles import FACE, FILLER, FLUID
 
 NU = 0.3
 

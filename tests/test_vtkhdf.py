@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from tanks import make_case
 
-from mpslab import vtkhdf
-from mpslab.particles import make_particles
+from mpslab.core.particles import make_particles
+from mpslab.output import vtkhdf
 from mpslab.simulation import Simulation
 
 FIELDS = ("velocity", "pressure", "surface")

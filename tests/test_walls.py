@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from tanks import SINGLE, flow_of, inside, lattice, make_case, near_of, run
 
-from mpslab import plugins, surface, walls
-from mpslab.particles import FACE, FLUID, PISTON, WATER, make_particles
-from mpslab.stencil import make_stencil
+from mpslab.core import plugins
+from mpslab.core.particles import FACE, FLUID, PISTON, WATER, make_particles
+from mpslab.core.stencil import make_stencil
+from mpslab.models import surface, wall_pressure
 
 RHO, G, DT = 1000.0, 9.81, 1e-3
 GRAVITY = np.array([0.0, 0.0, -G])
@@ -24,7 +25,7 @@ def tank(dim=3, jitter=0.1, half=4):
 
 
 def pull_of(particles):
-    return walls.pull(particles, np.zeros_like(particles.velocity), GRAVITY, DT,
+    return wall_pressure.pull(particles, np.zeros_like(particles.velocity), GRAVITY, DT,
                       np.zeros(len(particles), bool))
 
 
@@ -32,7 +33,7 @@ def pull_of(particles):
 def test_extrapolated_pressure_of_still_water_is_exact_in_any_arrangement(dim):
     particles, near = tank(dim)
     exact = particles.pressure.copy()
-    walls.fill(near, RHO, pull_of(particles), True)
+    wall_pressure.fill(near, RHO, pull_of(particles), True)
     reached = (particles.role == FACE) & (particles.pressure > 0.0)
     assert np.count_nonzero(reached) > 9
     np.testing.assert_allclose(particles.pressure[reached], exact[reached], rtol=SINGLE)
@@ -44,7 +45,7 @@ def test_extrapolated_pressure_of_still_water_is_exact_in_any_arrangement(dim):
 def test_laplacian_of_hydrostatic_pressure_vanishes_beside_a_wall(dim):
     particles, near = tank(dim, jitter=0.0)
     terms = plugins.load("laplacians", "standard").pair_terms(near.stencil)
-    share = walls.flux(near, near.stencil, terms, pull_of(particles))
+    share = wall_pressure.flux(near, near.stencil, terms, pull_of(particles))
     for i in np.flatnonzero(inside(particles.position, 1.0) & particles.fluid):
         j = near.other[near.row[i] : near.solid[i]]
         r = np.linalg.norm(particles.position[j] - particles.position[i], axis=1)
@@ -56,7 +57,7 @@ def test_laplacian_of_hydrostatic_pressure_vanishes_beside_a_wall(dim):
 def test_pull_of_an_accelerating_piston_is_gravity_less_its_acceleration():
     particles = make_particles(np.zeros((2, 3)), [FLUID, FACE], [WATER, PISTON])
     particles.velocity[1, 0] = 0.3
-    pull = walls.pull(particles, np.array([[0.0, 0, 0], [0.1, 0, 0]]), GRAVITY, 0.1,
+    pull = wall_pressure.pull(particles, np.array([[0.0, 0, 0], [0.1, 0, 0]]), GRAVITY, 0.1,
                       np.array([False, True]))
     np.testing.assert_allclose(pull, [[0.0, 0.0, -G], [-2.0, 0.0, -G]])
 
@@ -98,7 +99,7 @@ def test_missing_neighbours_count_as_present_in_the_density_of_the_surface(dim):
 def test_walls_hold_a_negative_pressure_unless_it_is_clipped(clip):
     particles, near = tank(2)
     particles.pressure[particles.fluid] = -1e6
-    walls.fill(near, RHO, pull_of(particles), clip)
+    wall_pressure.fill(near, RHO, pull_of(particles), clip)
     beside = np.unique(near.other[~particles.fluid[near.other]])
     assert np.all(particles.pressure[beside] == 0.0 if clip else particles.pressure[beside] < 0.0)
 

@@ -7,9 +7,9 @@ import pytest
 from tanks import flow_of, make_case, particles_at
 
 from mpslab import load_case
-from mpslab.particles import FACE, FILLER
-from mpslab.sparse import SolverReport
-from mpslab.watch import RunFailed, check_lost, check_step, find_lost
+from mpslab.core.particles import FACE, FILLER
+from mpslab.pressure.system import SolverReport
+from mpslab.run.guard import RunFailed, check_lost, check_step, find_lost
 
 D0 = 0.002
 GOOD = SolverReport(12, 1e-7, True)

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from mpslab.wavemakers import file
+from mpslab.solids.wavemakers import file
 
 
 def replay(name, end=3.0, **given):

@@ -7,8 +7,11 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
-from mpslab import cases, paddle, plugins, waves
-from mpslab.keys import CaseError
+from mpslab import cases
+from mpslab.core import plugins
+from mpslab.core.keys import CaseError
+from mpslab.solids import paddle
+from mpslab.theory import waves
 
 G = 9.81
 DEPTH = 0.040

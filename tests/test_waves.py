@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.special import ellipk
 
-from mpslab import breaking, waves
+from mpslab.theory import breaking, waves
 
 G = 9.81
 # The paper's wave: T = 0.777 s, h = 0.040 m, H = 0.0196 m, slope 1:10.

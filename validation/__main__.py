@@ -4,7 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from mpslab.communicator import cores
+from mpslab.parallel.communicator import cores
 from validation import judge, report, result, suite
 from validation.display import make_display
 from validation.work import Task, Work

@@ -4,7 +4,7 @@ import time
 
 from rich.console import Console
 
-from mpslab.progress import LINE_EVERY, make_bar
+from mpslab.run.progress import LINE_EVERY, make_bar
 
 
 def make_display(tasks, console=None):

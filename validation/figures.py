@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
 from PIL import Image
 
-from mpslab.pictures import COLOURS, STYLE
+from mpslab.analysis.pictures import COLOURS, STYLE
 
 PAGE_STYLE = STYLE | {
     "font.size": 10,

@@ -13,7 +13,7 @@ import jinja2
 import markdown
 from markupsafe import Markup
 
-from mpslab.files import replacing
+from mpslab.core.files import replacing
 from validation import browser, figures, words
 from validation.judge import MISSED, OPEN
 

@@ -8,9 +8,9 @@ import matplotlib
 import numpy as np
 
 from mpslab import measures
-from mpslab.files import replacing
-from mpslab.pictures import STYLE
-from mpslab.provenance import environment
+from mpslab.analysis.pictures import STYLE
+from mpslab.core.files import replacing
+from mpslab.output.provenance import environment
 from validation.comparison import Comparison, Figure
 from validation.judge import check, judge
 from validation.run import Run

@@ -1,6 +1,6 @@
 """A finished run, as a case sees it."""
 
-from mpslab import results
+from mpslab.analysis import results
 
 
 class Run(results.Run):

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from mpslab.cases import load_case
 from mpslab.cases import names as built_in
-from mpslab.keys import did_you_mean
+from mpslab.core.keys import did_you_mean
 
 FOLDER = Path(__file__).parent
 SUITES = ("quick", "full")
@@ -52,7 +52,7 @@ class PlannedRun:
 
     @cached_property
     def resolved(self):
-        """The `mpslab.parameters.Case`, with nothing left open."""
+        """The `mpslab.core.parameters.Case`, with nothing left open."""
         return load_case(self.case, self.changes)
 
     @property

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import mpslab
 from mpslab.cases import dumps
-from mpslab.files import replacing
+from mpslab.core.files import replacing
 from validation.suite import PlannedRun
 
 DONE, FAILED, INTERRUPTED = 0, 3, 130  # exit statuses of mpslab.tank

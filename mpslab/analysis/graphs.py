@@ -4,9 +4,9 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from mpslab.analysis.headings import heading
+from mpslab.analysis.pictures import COLOURS, STYLE
 from mpslab.analysis.seastate import AMPLITUDES
-from mpslab.headings import heading
-from mpslab.pictures import COLOURS, STYLE
 
 MOST = 12  # gauges in a picture
 HIGHEST = 2.0  # times the largest density: so far up a band is drawn

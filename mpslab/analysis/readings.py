@@ -48,7 +48,7 @@ def read(gauges, level, window, period=None):
     Parameters
     ----------
     gauges : structured array (n,)
-        As of `mpslab.results.Run`.
+        As of `mpslab.analysis.results.Run`.
     level : float [m]
         Of the still water.
     window : mpslab.analysis.windows.Window

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mpslab.analysis.spectrum import without_trend
-from mpslab.waves import wave_number
+from mpslab.theory.waves import wave_number
 
 # Of two gauges 0.05 and 0.45 wavelengths apart, Goda's limits: sin^2(0.1 pi).
 LEAST_SOUND = 0.0955

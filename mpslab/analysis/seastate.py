@@ -5,10 +5,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from mpslab import bed
 from mpslab.analysis import arrays, crossings, eurotop, readings, reflection, spectrum, windows
 from mpslab.analysis.harmonics import HARMONICS, harmonics
-from mpslab.preflight import REGULAR
+from mpslab.core import bed
+from mpslab.run.preflight import REGULAR
 
 BAND = (1.0 / 3.0, 6.0)  # times the peak frequency
 FEW_WAVES = 20
@@ -30,7 +30,7 @@ class Sea:
 
     Attributes
     ----------
-    run : mpslab.results.Run
+    run : mpslab.analysis.results.Run
     regular : bool
         Regular waves, of the period `period`.
     period : float [s]
@@ -86,7 +86,7 @@ def analyse(
 
     Parameters
     ----------
-    run : mpslab.results.Run
+    run : mpslab.analysis.results.Run
         Finished or not.
     start, end : float [s], optional
         The window. By default as of `mpslab.analysis.windows`: until the last reading, from when

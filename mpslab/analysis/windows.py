@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mpslab.waves import group_celerity
+from mpslab.theory.waves import group_celerity
 
 SETTLED = 1.5  # periods after the ramp until waves are steady where they have come
 SLOW = 1.5  # times the peak frequency: the slower waves of a sea that are waited for
@@ -135,7 +135,7 @@ def from_readings(gauges, level, places):
     Parameters
     ----------
     gauges : structured array (n,)
-        As of `mpslab.results.Run`.
+        As of `mpslab.analysis.results.Run`.
     level : float [m]
         Of the still water.
     places : sequence of str

@@ -5,8 +5,8 @@ import re
 import tomllib
 
 from mpslab.cases.recipes import RECIPES
-from mpslab.keys import CaseError, shown
-from mpslab.parameters import LISTS
+from mpslab.core.keys import CaseError, shown
+from mpslab.core.parameters import LISTS
 
 # A number as Python takes it, by itself: no part of a word or of another number.
 NUMBER = re.compile(r"(?<![\w.+-])[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![\w.])")

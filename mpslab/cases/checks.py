@@ -7,14 +7,15 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import instruments, plugins
+from mpslab import instruments
 from mpslab.cases import contents
 from mpslab.cases.contents import ROUNDING
-from mpslab.census import census
+from mpslab.core import plugins
+from mpslab.core.keys import CaseError, require, require_choice, toml_name
+from mpslab.core.parameters import Case
 from mpslab.forcings import frame
-from mpslab.keys import CaseError, require, require_choice, toml_name
-from mpslab.parameters import Case
 from mpslab.solids import obstacles
+from mpslab.solids.census import census
 
 # Above this a case is taken for a slip of the pen: its arrays would take hundreds of gigabytes.
 MOST_PARTICLES = 1e9

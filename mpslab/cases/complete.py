@@ -3,8 +3,8 @@
 from dataclasses import replace
 from math import ceil
 
-from mpslab import timestep
-from mpslab.parameters import Case
+from mpslab.core import timestep
+from mpslab.core.parameters import Case
 
 
 def complete(case: Case) -> Case:

@@ -4,12 +4,11 @@ from itertools import combinations
 
 import numpy as np
 
-from mpslab import bed as beds
-from mpslab import filling
-from mpslab.census import columns_between
+from mpslab.core import bed as beds
+from mpslab.core.keys import require, shown
 from mpslab.core.lattice import effective_length
-from mpslab.keys import require, shown
-from mpslab.solids import gates, obstacles
+from mpslab.solids import filling, gates, obstacles
+from mpslab.solids.census import columns_between
 
 # Lengths from different keys count as equal when they differ by less than this share of the tank.
 ROUNDING = 1e-9

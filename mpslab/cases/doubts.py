@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from mpslab import timestep
 from mpslab.cases.checks import WAVES
 from mpslab.cases.contents import ROUNDING
-from mpslab.keys import shown
-from mpslab.parameters import Case
+from mpslab.core import timestep
+from mpslab.core.keys import shown
+from mpslab.core.parameters import Case
 
 NARROW = 4.0  # spacings: the particles do not resolve what is narrower in the bed
 # Times that the step may be shorter for viscosity than without: more, and the viscosity may be one
@@ -19,7 +19,7 @@ def warnings(case: Case, paddle=None) -> list[str]:
 
     Parameters
     ----------
-    paddle : mpslab.paddle.Paddle, optional
+    paddle : mpslab.solids.paddle.Paddle, optional
         Motion of the wavemaker; without it the stroke stands for how far the piston goes.
     """
     reach = case.wavemaker.stroke if case.wavemaker.type != "none" else 0.0

@@ -4,8 +4,8 @@ import os
 from pathlib import Path
 
 from mpslab.cases import changes, reader
-from mpslab.keys import CaseError, did_you_mean, shown
-from mpslab.parameters import NAME, Case
+from mpslab.core.keys import CaseError, did_you_mean, shown
+from mpslab.core.parameters import NAME, Case
 
 FOLDER = Path(__file__).parent
 MOST_BYTES = 1_000_000  # of a case file

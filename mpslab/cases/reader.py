@@ -6,10 +6,18 @@ from pathlib import Path
 
 from mpslab.cases.checks import check
 from mpslab.cases.complete import complete
+from mpslab.cases.inputs import FILES
 from mpslab.cases.recipes import RECIPES
-from mpslab.inputs import FILES
-from mpslab.keys import CaseError, check_value, did_you_mean, require_choice, rule, shown, toml_name
-from mpslab.parameters import LISTS, TABLES, Case
+from mpslab.core.keys import (
+    CaseError,
+    check_value,
+    did_you_mean,
+    require_choice,
+    rule,
+    shown,
+    toml_name,
+)
+from mpslab.core.parameters import LISTS, TABLES, Case
 
 
 def loads(source: str, name: str = "case", folder: Path = Path()) -> Case:

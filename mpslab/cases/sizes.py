@@ -3,9 +3,9 @@
 import math
 from dataclasses import dataclass
 
-from mpslab import timestep
-from mpslab.keys import require
-from mpslab.parameters import Case
+from mpslab.core import timestep
+from mpslab.core.keys import require
+from mpslab.core.parameters import Case
 
 MOST_STEPS = 1e8
 MOST_FRAMES = 1e6

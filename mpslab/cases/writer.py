@@ -3,8 +3,8 @@
 import json
 from dataclasses import fields
 
-from mpslab.keys import toml_name
-from mpslab.parameters import LISTS, TABLES, Case
+from mpslab.core.keys import toml_name
+from mpslab.core.parameters import LISTS, TABLES, Case
 
 # Column at which the comments start, where a value leaves room for it.
 COMMENT = 36

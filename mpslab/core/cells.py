@@ -81,7 +81,7 @@ def make_cells(lower, upper, radius, width=0.0, slabs=None):
     radius : float [m]
     width : float [m]
         Period across the tank, 0 when not periodic.
-    slabs : mpslab.slabs.Slabs, optional
+    slabs : mpslab.parallel.slabs.Slabs, optional
         The cells along x are parts of these.
     """
     lower, extent = np.array(lower, float), np.subtract(upper, lower)

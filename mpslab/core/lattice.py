@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mpslab import bed as beds
+from mpslab.core import bed as beds
 from mpslab.later import scipy
 
 

@@ -4,8 +4,8 @@ from copy import copy
 
 import numpy as np
 
+from mpslab.core.particles import no_particles
 from mpslab.kernels import divergence, measure, moments, repulsion
-from mpslab.particles import no_particles
 
 # Near the free surface the moment is one-sided and its inverse large: one layer would push the
 # next away.  There C = I, and the pair of the conservative gradient is that of p_i + p_j.

@@ -13,7 +13,7 @@ them goes on as the forcing wants it.
 Each module holds one, ``make(case)``, which gives the forcing, or None where a case has none.
 """
 
-from mpslab import plugins
+from mpslab.core import plugins
 
 
 def forcings_of(case, own=()):

@@ -14,8 +14,8 @@ import csv
 
 import numpy as np
 
-from mpslab.keys import CaseError
-from mpslab.solids.motion import Sine, Table
+from mpslab.core.keys import CaseError
+from mpslab.core.motion import Sine, Table
 
 AXES = {"sway": 0, "heave": 1, "roll": 2}
 COLUMNS = {"x": 1.0, "z": 1.0, "roll": np.pi / 180.0}  # of a file, in m, m and rad

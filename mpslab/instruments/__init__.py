@@ -10,10 +10,10 @@ come from tables of the case (``[[force]]``) may have a ``check(case)``, which r
 
 from collections import Counter
 
-from mpslab import plugins
-from mpslab.columns import name_of
-from mpslab.keys import require, shown
-from mpslab.schedule import check_interval
+from mpslab.core import plugins
+from mpslab.core.columns import name_of
+from mpslab.core.keys import require, shown
+from mpslab.core.schedule import check_interval
 
 FIRST = ("time [s]", "step")  # what the first column may be: it tells which rows a restart drops
 FORBIDDEN = "/\\."  # the last stands between name and key in a checkpoint
@@ -48,7 +48,7 @@ class Instrument:
 
         Parameters
         ----------
-        flow : mpslab.step.Flow
+        flow : mpslab.run.step.Flow
             Its particles are those that this rank owns; ``flow.domain.total(values)`` adds (n,)
             values of them over all ranks, to the same bits on any number of them.
         """

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from mpslab import parts
+from mpslab.core.keys import CaseError, require, require_choice
+from mpslab.core.plugins import load
 from mpslab.instruments import Instrument, check_names
-from mpslab.keys import CaseError, require, require_choice
-from mpslab.plugins import load
-from mpslab.reaction import Reaction
+from mpslab.models.reaction import Reaction
+from mpslab.solids import parts
 
 MOST = 100  # forces of a case
 BALANCE = "water"  # what the columns of the balance begin with

@@ -1,6 +1,6 @@
 """Wave gauges, ``[[gauge]]``: the water level over a place."""
 
-from mpslab.gauges import surface_elevation
+from mpslab.core.gauges import surface_elevation
 from mpslab.instruments import Instrument
 from mpslab.instruments._near import read_near
 

@@ -1,6 +1,6 @@
 """Particles that left the tank."""
 
-from mpslab.columns import LOST_COLUMNS
+from mpslab.core.columns import LOST_COLUMNS
 from mpslab.instruments import Instrument
 
 

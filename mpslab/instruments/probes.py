@@ -1,7 +1,7 @@
 """Probes, ``[[probe]]``: pressure and velocity at a point."""
 
-from mpslab.columns import PROBE_QUANTITIES
-from mpslab.gauges import probe
+from mpslab.core.columns import PROBE_QUANTITIES
+from mpslab.core.gauges import probe
 from mpslab.instruments import Instrument
 from mpslab.instruments._near import read_near
 

@@ -1,7 +1,7 @@
 """The steps: what each of them took, and what the water holds after it."""
 
-from mpslab import diagnostics
-from mpslab.columns import STEP_COLUMNS
+from mpslab.core import diagnostics
+from mpslab.core.columns import STEP_COLUMNS
 from mpslab.instruments import Instrument
 
 
@@ -16,7 +16,7 @@ class Steps(Instrument):
     Attributes
     ----------
     last : dict
-        The last row, by the keys of `mpslab.columns.STEP_COLUMNS`.
+        The last row, by the keys of `mpslab.core.columns.STEP_COLUMNS`.
     """
 
     name = "steps"

@@ -6,7 +6,7 @@ from libc.math cimport sqrt
 
 from mpslab.kernels.lanes cimport four, lane, load, plus, times, widened
 
-# Roles of particles, as in mpslab/particles.py.
+# Roles of particles, as in mpslab/core/particles.py.
 cdef enum:
     FLUID = 0
     FACE = 1

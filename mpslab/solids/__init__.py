@@ -8,7 +8,7 @@ A solid is an object with
         or a FILLER behind it. Two faces that both meet water stand as far apart as
         `obstacles.least_thickness` says.
     motion : function (t [s]) -> (x, z, angle) [m, m, rad], or None
-        How far it has gone from where it was laid out (`mpslab.solids.motion`); None for a solid
+        How far it has gone from where it was laid out (`mpslab.core.motion`); None for a solid
         that stands still.
     holds(points) -> (n,) bool
         Which places (n, 3) [m] are inside it, as it was laid out: no water is laid there.

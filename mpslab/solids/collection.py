@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from mpslab.keys import check_value
-from mpslab.parameters import NAME
-from mpslab.particles import FIRST_SOLID, PISTON, TANK
+from mpslab.core.keys import check_value
+from mpslab.core.parameters import NAME
+from mpslab.core.particles import FIRST_SOLID, PISTON, TANK
 from mpslab.solids import gates, obstacles
 from mpslab.solids.piston import Piston
 from mpslab.solids.tank import Tank
@@ -19,8 +19,8 @@ def solids_of(case, paddle=None, own=(), backmost=0.0):
 
     Parameters
     ----------
-    case : mpslab.parameters.Case
-    paddle : mpslab.paddle.Paddle, optional
+    case : mpslab.core.parameters.Case
+    paddle : mpslab.solids.paddle.Paddle, optional
         Motion of the wavemaker; without it the solids can only be laid out.
     own : sequence of solids
     backmost : float [m]

@@ -7,9 +7,9 @@ side does not press through to the other.
 
 import numpy as np
 
-from mpslab import bed as beds
+from mpslab.core import bed as beds
 from mpslab.core import lattice
-from mpslab.particles import FACE, FILLER
+from mpslab.core.particles import FACE, FILLER
 from mpslab.solids.obstacles import least_thickness
 from mpslab.solids.solid import Solid
 
@@ -33,7 +33,7 @@ class Gate(Solid):
 
     Parameters
     ----------
-    case : mpslab.parameters.Case
+    case : mpslab.core.parameters.Case
     number : int
         Which of ``case.gate`` it is.
     tank : mpslab.solids.tank.Tank

@@ -10,10 +10,10 @@ from math import ceil
 
 import numpy as np
 
-from mpslab import bed as beds
+from mpslab.core import bed as beds
 from mpslab.core import lattice
+from mpslab.core.particles import FACE, FILLER, FIRST_SOLID, PISTON
 from mpslab.later import scipy
-from mpslab.particles import FACE, FILLER, FIRST_SOLID, PISTON
 from mpslab.solids.solid import Solid
 
 NEAR = 2.0  # spacings: water no further off than this presses on a wall at t = 0
@@ -55,7 +55,7 @@ class Obstacle(Solid):
 
     Parameters
     ----------
-    case : mpslab.parameters.Case
+    case : mpslab.core.parameters.Case
     number : int
         Which of ``case.obstacle`` it is.
     tank : mpslab.solids.tank.Tank

@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from mpslab import plugins
-from mpslab.core import lattice
-from mpslab.keys import CaseError, shown
-from mpslab.particles import FACE, FILLER, TANK
+from mpslab.core import lattice, plugins
+from mpslab.core.keys import CaseError, shown
+from mpslab.core.particles import FACE, FILLER, TANK
 from mpslab.solids.solid import Solid
 
 ROOM = 3  # spacings that are left between the piston and an obstacle or a gate
@@ -73,9 +72,9 @@ class Piston(Solid):
 
     Parameters
     ----------
-    case : mpslab.parameters.Case
+    case : mpslab.core.parameters.Case
     tank : mpslab.solids.tank.Tank
-    paddle : mpslab.paddle.Paddle or None
+    paddle : mpslab.solids.paddle.Paddle or None
         Motion of the wavemaker; None to lay the piston out only.
     """
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mpslab.solids.motion import displacement
+from mpslab.core.motion import displacement
 
 
 class Solid:
@@ -40,7 +40,7 @@ class Solid:
         """Take back what `state` gave."""
 
     def advance(self, time, dt, readings):
-        """Decide on the move from time to time + dt, as `mpslab.paddle.Paddle.advance` does."""
+        """Decide on the move from time to time + dt, as `Paddle.advance` does."""
 
     def push(self, particles, rows, time, dt):
         """Give its particles the velocity of their move from time to time + dt, in place."""

@@ -8,10 +8,10 @@ from functools import cached_property
 
 import numpy as np
 
-from mpslab import bed as beds
+from mpslab.core import bed as beds
 from mpslab.core import lattice
 from mpslab.core.lattice import effective_length
-from mpslab.particles import FACE, FILLER
+from mpslab.core.particles import FACE, FILLER
 from mpslab.solids import obstacles
 from mpslab.solids.solid import Solid
 
@@ -21,7 +21,7 @@ class Tank(Solid):
 
     Parameters
     ----------
-    case : mpslab.parameters.Case
+    case : mpslab.core.parameters.Case
     backmost : float [m]
         Least displacement of the piston; the bed reaches that far behind it.
     """

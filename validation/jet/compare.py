@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.optimize import brentq
 
-from mpslab.kinds import FLUID
+from mpslab.core.kinds import FLUID
 from validation.comparison import Comparison, rms
 
 STEADY = 0.20, 0.45  # [s] between which the flow at the wall is steady

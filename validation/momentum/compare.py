@@ -3,11 +3,11 @@
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from mpslab import plugins
+from mpslab.core import plugins
+from mpslab.core.neighbors import NeighborList
 from mpslab.core.neighbourhood import Neighbourhood
-from mpslab.neighbors import NeighborList
-from mpslab.particles import FLUID, make_particles
-from mpslab.stencil import make_stencil
+from mpslab.core.particles import FLUID, make_particles
+from mpslab.core.stencil import make_stencil
 from validation.comparison import Comparison
 
 GRADIENTS = ("corrected", "gc", "mps", "symmetric", "cmps")

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from mpslab import gauges
-from mpslab.overturning import JET, find_crest
-from mpslab.snapshots import middle_slice
+from mpslab.analysis.overturning import JET, find_crest
+from mpslab.analysis.snapshots import middle_slice
+from mpslab.core import gauges
 from validation.data import foremost
 
 HEIGHT, DEEP_HEIGHT = 0.0196, 0.0186  # [m] of the paper, and unshoaled
@@ -18,7 +18,7 @@ SHALLOW = 2.0  # [spacings] of water: in less, a height over the depth has no me
 
 
 def crests(run):
-    """Time [s] and `mpslab.overturning.Crest` of the water on the slope, frame by frame, a list."""
+    """Time [s] and `Crest` of the water on the slope, frame by frame, a list."""
     found = []
     for frame in run.frames:
         piece = middle_slice(frame.time, frame, run.spacing, run.case.tank.width)

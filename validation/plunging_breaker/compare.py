@@ -3,10 +3,13 @@
 import matplotlib
 import numpy as np
 
-from mpslab import breaking, gauges, measures, scatter, waves
-from mpslab.kinds import FLUID
-from mpslab.pictures import STYLE
-from mpslab.snapshots import draw_breaker, middle_slice
+from mpslab import measures
+from mpslab.analysis import scatter
+from mpslab.analysis.pictures import STYLE
+from mpslab.analysis.snapshots import draw_breaker, middle_slice
+from mpslab.core import gauges
+from mpslab.core.kinds import FLUID
+from mpslab.theory import breaking, waves
 from validation.comparison import Comparison
 from validation.plunging_breaker.breakers import (
     DEEP_HEIGHT,

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import breaking, waves
+from mpslab.theory import breaking, waves
 from validation.plunging_breaker.breakers import DEEP_HEIGHT, SLOPE
 
 DATA = Path(__file__).parent / "data" / "cornell_lab_slope1to10_breakers.csv"

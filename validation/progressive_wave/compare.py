@@ -3,7 +3,7 @@
 import numpy as np
 
 from mpslab.analysis.harmonics import harmonics
-from mpslab.waves import group_celerity, wavelength
+from mpslab.theory.waves import group_celerity, wavelength
 from validation.comparison import Comparison
 from validation.wave_analysis import decay
 

@@ -4,7 +4,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from mpslab.forcings.frame import motion_of
-from mpslab.waves import standing_wave_frequency
+from mpslab.theory.waves import standing_wave_frequency
 from validation.comparison import Comparison
 
 FREE = {"mode-1": "period_1", "mode-1-fine": "period_1_fine", "mode-2": "period_2"}

@@ -4,7 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import gauges, waves
+from mpslab.core import gauges
+from mpslab.theory import waves
 from validation.comparison import Comparison
 from validation.data import foremost
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab import waves
+from mpslab.theory import waves
 from validation.comparison import Comparison
 
 DATA = Path(__file__).parent / "data" / "chan_street1970_solitary_wall_runup.csv"

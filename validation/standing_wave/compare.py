@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mpslab.waves import standing_wave_frequency
+from mpslab.theory.waves import standing_wave_frequency
 from validation.comparison import Comparison
 from validation.potential_flow import standing_wave
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mpslab.kinds import FLUID, WALL
+from mpslab.core.kinds import FLUID, WALL
 from validation.comparison import Comparison
 
 SETTLED = 0.5  # seconds after which means are taken in the box

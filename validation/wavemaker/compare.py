@@ -3,8 +3,8 @@
 import numpy as np
 from scipy.optimize import curve_fit
 
-from mpslab import waves
 from mpslab.analysis.harmonics import harmonics
+from mpslab.theory import waves
 from validation.comparison import Comparison
 
 PERIODS = 2  # that harmonics are taken over

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import cKDTree
 
-from mpslab.kinds import FLUID
-from mpslab.overturning import find_crest
+from mpslab.analysis.overturning import find_crest
+from mpslab.core.kinds import FLUID
 from validation.comparison import Comparison
 from validation.data import foremost
 

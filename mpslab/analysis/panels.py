@@ -1,0 +1,269 @@
+"""Panels of particles under one heading, with a colour bar and a legend."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.collections import EllipseCollection
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from mpslab.analysis.headings import heading
+from mpslab.core.kinds import DUMMY, GATE, GATE_DUMMY, PISTON, PISTON_DUMMY, WALL
+
+# Colours of solids: that of their faces, and that of the particles behind them.
+SOLIDS = {
+    "wall": ("0.55", "0.80"),
+    "obstacle": ("#8a6642", "#c9b497"),
+    "piston": ("0.15", "0.45"),
+    "gate": ("#b2457c", "#dda6c4"),
+}
+FACES = {WALL: "wall", PISTON: "piston", GATE: "gate"}
+FILLERS = {DUMMY: "wall", PISTON_DUMMY: "piston", GATE_DUMMY: "gate"}
+STILL_WATER = {"color": "#d55e00", "linewidth": 1.0, "linestyle": (0, (6, 4))}
+WATER = "#3b7dbf"  # where the frames do not hold what would colour it
+MAPS = {"speed": "viridis", "along": "cividis", "pressure": "plasma"}  # even to the eye
+LABELS = {"speed": "speed [m/s]", "along": "velocity along the tank [m/s]",
+          "pressure": "pressure [Pa]"}  # fmt: skip
+BACKWARD = 0.5  # the colours of velocity along the tank begin at -1 times that of their end
+# The colours of speed end at the one of these times sqrt(g h) that is nearest to what is expected:
+# of a crest that breaks, over the speed below it by the linear theory of long waves; of a column
+# that collapses, and of still water, over sqrt(g h).
+ENDS = tuple(step * 10.0**power for power in range(-6, 7) for step in (1, 2, 5))
+CREST, COLLAPSE, STILL = 3.0, 2.0, 0.05
+HIGHEST = 1.2  # those of pressure: times that on the bed under still water
+PAGE_WIDTH = 10.0  # [inch]
+# Discs as wide as the spacing touch; smaller ones than this leave no more than a pattern, and are
+# drawn so many times as wide, which closes the gaps.
+SMALL, CLOSED = 2.5, 1.4  # [points of 1/72 inch], [-]
+
+
+@dataclass(frozen=True)
+class Scale:
+    """Colours of the water: of what, up to where, and its unit of the tank.
+
+    Attributes
+    ----------
+    field : str
+        "speed", "along" or "pressure".
+    end : float
+        Where the colours end, in units of the tank.
+    unit : float [m/s] or [Pa]
+        sqrt(g h), or rho g h; 1 where there is no gravity.
+    name : str
+        The unit in letters; empty where there is no gravity.
+    """
+
+    field: str
+    end: float
+    unit: float
+    name: str
+
+    @property
+    def norm(self):
+        """Of matplotlib, over values in SI units."""
+        end = self.end * self.unit
+        return Normalize(-BACKWARD * end if self.field == "along" else 0.0, end)
+
+
+def make_scale(case, field):
+    """The `Scale` of a field, which follows from the case alone: it is that of all its pictures.
+
+    Parameters
+    ----------
+    case : dict
+        The case as its TOML file holds it.
+    field : str
+        "speed", "along" or "pressure".
+
+    Returns
+    -------
+    Scale, or None if nothing is there to measure the field by
+    """
+    depth, gravity, density = (
+        case["tank"]["depth"], case["fluid"]["gravity"], case["fluid"]["density"]
+    )  # fmt: skip
+    if field == "pressure":
+        unit = density * gravity * depth
+        return Scale(field, HIGHEST, unit, r"\rho g h") if unit else None
+    unit, name = (math.sqrt(gravity * depth), r"\sqrt{g h}") if gravity else (1.0, "")
+    speed = _expected_speed(case, unit) / unit
+    return Scale(field, min(ENDS, key=lambda end: abs(math.log(end / speed))), unit, name)
+
+
+def _expected_speed(case, fast):
+    """A speed that little of the water will exceed [m/s]; `fast` is sqrt(g h)."""
+    initial, maker, boxes = case["initial"], case["wavemaker"], case.get("water", ())
+    if initial["type"] == "stream":
+        return abs(initial["speed"]) or fast
+    if initial["type"] in ("strain", "rotation"):
+        right = max((box["to"][0] for box in boxes), default=case["tank"]["length"])
+        left = min((box["from"][0] for box in boxes), default=0.0)
+        return 0.5 * abs(initial["rate"]) * (right - left) or fast
+    if boxes:
+        return COLLAPSE * fast
+    if initial["type"] == "standing_wave":
+        amplitude = initial["amplitude"]
+    elif maker["type"] in ("none", "still"):
+        return STILL * fast
+    else:
+        amplitude = maker["height"] * (1.0 if maker["type"] == "solitary" else 0.5)
+    return CREST * amplitude / case["tank"]["depth"] * fast or fast
+
+
+def draw_panels(slices, case, box, title, field):
+    """One panel for each slice, the same limits and colours in all.
+
+    Parameters
+    ----------
+    slices : list of mpslab.analysis.snapshots.Slice
+    case : dict
+        The case as its TOML file holds it.
+    box : ((float, float), (float, float)) [m]
+        Limits of x and of z.
+    title : str
+        What the picture shows.
+    field : str
+        What colours the water, "speed" or "pressure"; one colour where the frames do not hold it.
+
+    Returns
+    -------
+    matplotlib Figure
+    """
+    scale = None if getattr(slices[0], field) is None else make_scale(case, field)
+    (left, right), (bottom, top) = box
+    aspect = (top - bottom) / (right - left)
+    columns = 1 if aspect < 0.2 or len(slices) == 1 else 2
+    size = disc_size(case["particles"]["spacing"], 72 * PAGE_WIDTH / columns / (right - left))
+    rows = -(-len(slices) // columns)
+    height = rows * (0.9 * PAGE_WIDTH / columns * aspect + 0.45) + 2.6
+    figure = Figure(figsize=(PAGE_WIDTH, height), layout="constrained")
+    figure.get_layout_engine().set(h_pad=0.08)
+    axes = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
+    for ax, piece in zip(axes, slices, strict=False):
+        water = draw_slice(ax, piece, case, scale, size)
+        draw_still_water(ax, case)
+        ax.set(xlim=box[0], ylim=box[1], aspect="equal", xlabel="x [m]", ylabel="z [m]")
+        ax.set_title(f"t = {piece.time:.3f} s", loc="left")
+        ax.label_outer()
+    for ax in axes[len(slices) :]:
+        ax.set_axis_off()
+    if scale:
+        _draw_colour_bar(figure, axes, water, scale)
+    _draw_legend(figure, slices, case, box, scale)
+    text = f"{title}: water coloured by {scale.field}" if scale else title
+    figure.suptitle(heading(case, text))
+    return figure
+
+
+def _draw_colour_bar(figure, axes, water, scale):
+    """The colour bar, below in SI units and above in those of the tank."""
+    bar = figure.colorbar(
+        water, ax=axes.tolist(), location="bottom", extend="max", shrink=0.6, aspect=50, pad=0.02,
+        label=LABELS[scale.field],
+    )  # fmt: skip
+    if scale.name:
+        above = bar.ax.secondary_xaxis(
+            "top", functions=(lambda value: value / scale.unit, lambda value: value * scale.unit)
+        )
+        above.set_xlabel(f"{scale.field} / ${scale.name}$")
+
+
+def _draw_legend(figure, slices, case, box, scale):
+    """What is not told by the colour bar: solids, still water, and water of one colour."""
+    (left, right), (bottom, top) = box
+    seen = set()
+    for piece in slices:
+        inside = (piece.x > left) & (piece.x < right) & (piece.z > bottom) & (piece.z < top)
+        seen |= {name for name in SOLIDS if (_solid(piece, case, name) & inside).any()}
+    handles = [_disc(SOLIDS[name][0], name) for name in SOLIDS if name in seen]
+    if not scale:
+        handles.insert(0, _disc(WATER, "water"))
+    if not case.get("water"):
+        handles.append(Line2D([], [], label="still water level", **STILL_WATER))
+    if handles:
+        figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
+
+
+def _disc(colour, label):
+    return Line2D([], [], linestyle="", marker="o", markersize=8, color=colour, label=label)
+
+
+def _solid(piece, case, name):
+    """Mask of the particles of a solid, (n,) bool."""
+    kinds = [kind for kind, solid in (FACES | FILLERS).items() if solid == name]
+    if name not in ("wall", "obstacle"):
+        return np.isin(piece.kind, kinds)
+    inside, margin = np.zeros(len(piece.x), bool), 0.5 * case["particles"]["spacing"]
+    for box in case.get("obstacle", ()):
+        (x0, _, z0), (x1, _, z1) = box["from"], box["to"]
+        inside |= (np.abs(piece.x - 0.5 * (x0 + x1)) < 0.5 * (x1 - x0) + margin) & (
+            np.abs(piece.z - 0.5 * (z0 + z1)) < 0.5 * (z1 - z0) + margin
+        )
+    return np.isin(piece.kind, (WALL, DUMMY)) & (inside if name == "obstacle" else ~inside)
+
+
+def disc_size(spacing, scale):
+    """Diameter of the discs [m], of particles of a spacing [m] at a scale [points/m]."""
+    return spacing if spacing * scale >= SMALL else CLOSED * spacing
+
+
+def draw_slice(ax, piece, case, scale, size):
+    """Particles as discs.
+
+    Parameters
+    ----------
+    ax : matplotlib Axes
+    piece : mpslab.analysis.snapshots.Slice
+    case : dict
+        The case as its TOML file holds it.
+    scale : Scale, or None
+        Colours of the water; None for one colour.
+    size : float [m]
+        Diameter of the discs.
+
+    Returns
+    -------
+    matplotlib EllipseCollection
+        That of the water.
+    """
+    is_face = np.isin(piece.kind, list(FACES))
+    for name, colours in SOLIDS.items():
+        solid = _solid(piece, case, name)
+        for part, colour in zip((solid & is_face, solid & ~is_face), colours, strict=True):
+            _draw_discs(ax, piece, part, size, facecolor=colour)
+    if scale is None:
+        return _draw_discs(ax, piece, piece.fluid, size, facecolor=WATER)
+    values = getattr(piece, scale.field)[piece.fluid]
+    return _draw_discs(
+        ax, piece, piece.fluid, size, array=values, cmap=MAPS[scale.field], norm=scale.norm
+    )
+
+
+def _draw_discs(ax, piece, mask, size, **colour):
+    """Discs of a size in the units of the axes."""
+    size = np.full(np.count_nonzero(mask), size)
+    discs = EllipseCollection(
+        size,
+        size,
+        np.zeros_like(size),
+        units="xy",
+        offsets=np.column_stack([piece.x[mask], piece.z[mask]]),
+        offset_transform=ax.transData,
+        linewidth=0,
+        **colour,
+    )
+    return ax.add_collection(discs)
+
+
+def draw_still_water(ax, case):
+    """The still-water line up to the shore, where the tank was filled to its still depth."""
+    if case.get("water"):
+        return
+    depth = case["tank"]["depth"]
+    bed = np.array(case["tank"]["bed"] or [[0.0, 0.0], [case["tank"]["length"], 0.0]])
+    along = np.linspace(0.0, case["tank"]["length"], 1000)
+    wet = np.interp(along, *bed.T) < depth
+    level = np.where(wet, depth, np.nan)
+    ax.plot(along, level, **STILL_WATER)

@@ -1,0 +1,119 @@
+"""What the water and its solids give each other: impulses and their moments.
+
+Whatever acts between particles in a step (viscosity, pressure, stabilisers) acts pair by pair. What
+a solid gives the water is what the same model makes of the pairs of the water with this solid
+alone, and the solid gets the opposite. So action is reaction to rounding, with every model, and
+nothing is integrated over a face: impulse that the water got is impulse that a solid gave.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mpslab.kernels import reaction as kernels
+from mpslab.solids import parts
+
+AXES = 3
+
+
+class Reaction:
+    """Adds up what solids give the water, from step to step.
+
+    Parameters
+    ----------
+    case : mpslab.core.parameters.Case
+    wanted : sequence of (str, (3,) float)
+        Name of a solid (`mpslab.solids.parts`), and the point [m] about which its moment is taken.
+
+    Attributes
+    ----------
+    span : float [s]
+        Time over which was added up.
+    gained, pushed, given : (3,) float64 [kg m/s]
+        What momentum the water gained, and what of it from gravity and from all solids; in 2-D of
+        water 1 m wide.
+    on : (k, 6) float64 [N s, N m s]
+        Impulse on each solid that is wanted, and its moment.
+    """
+
+    def __init__(self, case, wanted):
+        self.case, self.wanted = case, tuple(wanted)
+        self.clear()
+
+    def clear(self):
+        """Begin anew to add up."""
+        self.take(0.0, np.zeros(AXES * (3 + 2 * len(self.wanted))))
+
+    def take(self, span, sums):
+        """Go on from what was added up before, as `span` and `sums` were."""
+        self.span, self.sums = span, np.array(sums)
+        self.gained, self.pushed, self.given = self.sums[: 3 * AXES].reshape(3, AXES)
+        self.on = self.sums[3 * AXES :].reshape(-1, 2 * AXES)
+
+    def begin(self, particles, before):
+        """The particles of a step, ghosts among them, after what acts on each alone.
+
+        before : (n, 3) float64 [m/s], their velocities at the start of the step
+        """
+        self._before, self._pushed = before, particles.velocity.copy()
+        self._place = particles.position.copy()
+
+    def find(self, near):
+        """Find the pairs of the water with solids among those of the step."""
+        particles = near.particles
+        masks = [parts.mask(self.case, particles, name) for name, _ in self.wanted]
+        self._pairs = [_with_solids(near, mask) for mask in [~particles.fluid, *masks]]
+        self._changes = [np.zeros_like(particles.velocity) for _ in self._pairs]
+
+    def add(self, near, act):
+        """Note what solids do to the water, by what `act` makes of their pairs.
+
+        near : Neighbourhood
+        act : callable
+            Gives the change of velocity of the particles, (n, 3) [m/s], by a `Neighbourhood`.
+        """
+        for change, pairs in zip(self._changes, self._pairs, strict=True):
+            change += act(near.only(*pairs))
+
+    def stabilise(self, near, act):
+        """As `add` for what `act`, of a `Neighbourhood`, does to its particles' velocity."""
+
+        def change(some):
+            start = near.particles.velocity
+            tried = replace(
+                near.particles, position=near.particles.position.copy(), velocity=start.copy()
+            )
+            act(some.of(tried))
+            return tried.velocity - start
+
+        self.add(near, change)
+
+    def end(self, flow, dt):
+        """Add up the step, of all ranks, while its ghosts are still there."""
+        particles, domain = flow.particles, flow.domain
+        water = np.zeros(len(particles), bool)
+        water[domain.owned] = particles.fluid[domain.owned]
+        water = np.flatnonzero(water)
+        near = water[np.diff(self._pairs[0][0])[water] > 0]
+        before = self._before.take(water, 0)
+        by_all, *by_each = (change.take(near, 0) for change in self._changes)
+        place = self._place.take(near, 0)
+        moments = [np.cross(place - about, change)
+                   for (_, about), change in zip(self.wanted, by_each, strict=True)]  # fmt: skip
+        on = [-part for pair in zip(by_each, moments, strict=True) for part in pair]
+        mass = self.case.fluid.density * flow.stencil.spacing**flow.stencil.dim
+        self.sums += mass * domain.totals(
+            (water, particles.velocity.take(water, 0) - before),
+            (water, self._pushed.take(water, 0) - before),
+            (near, np.hstack([by_all, *on])),
+        )
+        self.span += dt
+
+
+def _with_solids(near, wanted):
+    """Rows and numbers of the pairs of water with the solids of a mask, as `only` takes them."""
+    first, found = np.empty_like(near.row), np.empty(len(near.other) + 1, np.int32)
+    count = kernels.with_solids(
+        near.particles.role, near.row, near.solid, near.other, wanted.view(np.uint8), first, found
+    )
+    return first, found[:count].copy()

@@ -1,0 +1,1 @@
+"""Which rank owns what, and how the ranks speak with each other."""

@@ -1,0 +1,1 @@
+"""The pressure equation: its system, and what solves it."""

@@ -1,0 +1,218 @@
+"""Deflation: the smooth part of the pressure, solved for at once.
+
+What conjugate gradients are slow at is pressure that varies over many particles.  Its shape is
+given by one number a group of neighbouring rows (Nicolaides 1987), and the system of these
+numbers, Z^T A Z, is small: a direct solve in every iteration, or, where its factor would cost too
+much, conjugate gradients with a deflation of their own, whose groups are four of these.
+"""
+
+import numpy as np
+
+from mpslab.kernels import coarse, sparse
+from mpslab.pressure.conjugate_gradient import by_diagonal, conjugate_gradient
+from mpslab.pressure.system import PressureSystem
+
+# What the factor of the band may cost at most: multiply-adds a row of the finest system.  That is
+# a hundredth of a step, but every rank does all of it, on 16 ranks a sixth.
+WORK = 200
+# Of a coarse system that is solved by iterations: its residual, as a share of that of the system
+# above it (what it leaves of a sum is not taken out by any iteration there), and their most.
+SHARPER, FINEST, MOST = 0.01, 1e-14, 200
+# Cells across the tank in the number of a group; far more than there are.
+SIDE = 1 << 20
+
+
+class Deflation:
+    """The coarse system of a pressure equation.
+
+    Rows belong to a group if they are in the same slab, and in the same cell across it.
+
+    Parameters
+    ----------
+    system : mpslab.pressure.system.PressureSystem
+    tolerance : float
+        Of the residual that it is to be solved to.
+    merged : int
+        Cells in either direction that are taken together.
+    budget : float, optional
+        Multiply-adds that a factor may cost.
+
+    Attributes
+    ----------
+    group : (m,) int32
+        Group of each row.
+    groups : (count,) int64
+        Keys of the groups of all ranks, in the order of their numbers.
+    coarse : Band or Nested
+        Solves for a value of each group.
+    """
+
+    def __init__(self, system, tolerance, merged=1, budget=None):
+        self.system = system
+        self.group, self.groups = group_rows(system, merged)
+        rows, half = self._couplings(system)
+        budget = WORK * rows if budget is None else budget
+        if self.count * half**2 <= budget or self.count < len(system.first):
+            self.coarse = Band(self, half)
+        else:
+            self.coarse = Nested(self, max(SHARPER * tolerance, FINEST), budget)
+
+    @property
+    def count(self):
+        """Groups on all ranks."""
+        return len(self.groups)
+
+    def _couplings(self, system):
+        """A Z; returns the rows of all ranks, and half the width of the band of Z^T A Z."""
+        most = len(system) + len(system.value)
+        self.start = np.zeros(len(system) + 1, np.int32)
+        member, entry = np.empty(most, np.int32), np.empty(most)
+        begin, end = system.own
+        used, half = coarse.by_group(
+            system.row, system.column, system.value, system.diagonal, self.group, begin, end,
+            np.full(self.count, -1, np.int32), self.start, member, entry,
+        )  # fmt: skip
+        self.member, self.entry = member[:used], entry[:used]
+        rows, halves = zip(*system.from_all((end - begin, half)), strict=True)
+        return sum(rows), max(halves)
+
+    def _sums(self, r):
+        """Z^T r of this rank's rows, (groups,)."""
+        sums = np.zeros(self.count)
+        coarse.gather(self.group, r, *self.system.own, sums)
+        return sums
+
+    def project(self, r):
+        """r = r - A Z (Z^T A Z)^-1 Z^T r, in place: what is left has no sum in any group."""
+        self._take_off(self.coarse.solve(self._sums(r)), r)
+
+    def project_product(self, p, q):
+        """`project` for q = A p; returns p . q of what is left.
+
+        p . A Z y is (Z^T q) . y.
+        """
+        by_slab = np.zeros(len(self.system.first) - 1)
+        self.system.slab_dots(p, q, by_slab)
+        y, product = self.coarse.solve_and_dot(self._sums(q), by_slab)
+        self._take_off(y, q)
+        return product
+
+    def _take_off(self, y, q):
+        coarse.take_off(self.start, self.member, self.entry, y, *self.system.own, q)
+
+    def complete(self, x, r):
+        """x = x + Z (Z^T A Z)^-1 Z^T r, in place: the smooth part for the residual r of x."""
+        coarse.spread(self.group, self.coarse.solve(self._sums(r)), x)
+
+
+class Band:
+    """Z^T A Z as a band, which every rank factors; half of it is as wide as `half` groups."""
+
+    def __init__(self, deflation, half):
+        self.system = system = deflation.system
+        self.band, self.inverse = np.zeros((deflation.count, half + 1)), np.empty(deflation.count)
+        coarse.couple(
+            deflation.start, deflation.member, deflation.entry, deflation.group, *system.own,
+            self.band,
+        )  # fmt: skip
+        self.band = system.collect(self.band)
+        coarse.factorise(self.band, self.inverse)
+
+    def solve(self, sums):
+        """(Z^T A Z)^-1 of the sums that the ranks have, a value for each group."""
+        y = self.system.collect(sums).copy()
+        coarse.substitute(self.band, self.inverse, y)
+        return y
+
+    def solve_and_dot(self, sums, by_slab):
+        """`solve`, and the sum of by_slab less sums . y; ranks meet but once for both."""
+        both = self.system.collect(np.concatenate([sums, by_slab]))
+        sums, y = both[: len(sums)], both[: len(sums)].copy()
+        coarse.substitute(self.band, self.inverse, y)
+        return y, sum(both[len(sums) :].tolist()) - sparse.dot(sums, y)
+
+
+class Nested:
+    """Z^T A Z as a system shared out among the ranks as its rows are, slab by slab."""
+
+    def __init__(self, deflation, tolerance, budget):
+        self.tolerance = tolerance
+        above, count = deflation.system, deflation.count
+        self.first = np.searchsorted(deflation.groups // SIDE**2, np.arange(len(above.first)))
+        begin, end = int(self.first[above.begin]), int(self.first[above.end])
+        own = slice(*above.own)
+        rows = np.argsort(deflation.group[own], kind="stable").astype(np.int32) + own.start
+        size = np.bincount(deflation.group[own], minlength=count)
+        row, diagonal = np.zeros(count + 1, np.int32), np.zeros(count)
+        column = np.empty(len(deflation.member), np.int32)
+        value = np.empty(len(deflation.member))
+        entries = coarse.condense(
+            deflation.start, deflation.member, deflation.entry, rows.astype(np.int32),
+            np.concatenate([[0], np.cumsum(size)]).astype(np.int32), begin, end,
+            np.full(count, -1, np.int32), row, column, value, diagonal,
+        )  # fmt: skip
+        cell = np.column_stack([deflation.groups // SIDE % SIDE, deflation.groups % SIDE])
+        self.system = PressureSystem(
+            row, column[:entries], value[:entries], diagonal, np.zeros(count),
+            self.first.astype(np.int32), above.domain, (cell - SIDE // 2).astype(np.int32),
+        )  # fmt: skip
+        self.system.refresh(diagonal)
+        diagonal[diagonal == 0.0] = 1.0  # of groups that no row here is coupled to
+        self.deflation = Deflation(self.system, tolerance, 2, budget)
+
+    def solve(self, sums):
+        """(Z^T A Z)^-1 of the sums of this rank's groups, a value for each it has to do with."""
+        system, y = self.system, np.zeros(len(sums))
+        system.right = sums
+        self.report = conjugate_gradient(
+            system, y, by_diagonal(system), self.tolerance, MOST, deflation=self.deflation
+        )
+        system.refresh(y)
+        return y
+
+    def solve_and_dot(self, sums, by_slab):
+        """`solve`, and the sum of by_slab less sums . y."""
+        y, dots = self.solve(sums), np.zeros_like(by_slab)
+        self.system.slab_dots(sums, y, dots)
+        return y, sum(self.system.collect(by_slab - dots).tolist())
+
+
+def group_rows(system, merged):
+    """Group of each row, (m,) int32, the same numbers on every rank; and the keys of all groups."""
+    slab = np.repeat(np.arange(len(system.first) - 1), np.diff(system.first))
+    key = keys(slab, system.cell, merged)
+    begin, end = system.own
+    groups, number = number_groups(system.from_all(np.unique(key[begin:end])))
+    ordered = np.empty_like(groups)
+    ordered[number] = groups
+    return number[np.searchsorted(groups, key)], ordered
+
+
+def keys(slab, cell, merged):
+    """A number for each slab and cell, (m,) int64.
+
+    Parameters
+    ----------
+    slab : (m,) int
+    cell : (m, 2) int
+        Across the tank, and upwards.
+    merged : int
+        Cells that are taken together in either direction.
+    """
+    part = cell.astype(np.int64) // merged + SIDE // 2
+    return (slab * SIDE + part[:, 0]) * SIDE + part[:, 1]
+
+
+def number_groups(several):
+    """Sorted keys of all groups, and the number of each, (groups,) int32.
+
+    Groups are numbered slab by slab, in a slab layer by layer, and in a layer from both sides by
+    turns, so that across a periodic tank first and last are near: the band is narrow.
+    """
+    groups = np.unique(np.concatenate(several))
+    slab, aside, up = groups // SIDE**2, groups // SIDE % SIDE, groups % SIDE
+    places, aside = np.unique(aside, return_inverse=True)
+    aside = np.minimum(2 * aside, 2 * (len(places) - 1 - aside) + 1)
+    number = np.empty(len(groups), np.int32)
+    number[np.lexsort((aside, up, slab))] = np.arange(len(groups))
+    return groups, number

@@ -1,0 +1,319 @@
+"""What a case will be like, worked out before any step: size, cost, and the wave it asks for."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from mpslab import instruments
+from mpslab.cases.doubts import warnings
+from mpslab.cases.sizes import sizes
+from mpslab.core import bed as beds
+from mpslab.core import memory
+from mpslab.core.kinds import KIND_NAMES
+from mpslab.core.lattice import effective_length, rows_across
+from mpslab.parallel import balance
+from mpslab.run.preflight_text import sections
+from mpslab.run.step import slabs_of, solver_of
+from mpslab.solids import filling, gates, obstacles
+from mpslab.solids.census import census
+from mpslab.solids.piston import make_paddle
+from mpslab.theory import breaking, waves
+
+# Measured on one core of a 2023 server processor with the recipe "standard".
+SECONDS_PER_PARTICLE_STEP = {2: 2.4e-6, 3: 4.8e-6}
+BYTES_PER_PARTICLE = {2: 900, 3: 2200}
+BYTES_OF_PROGRAM = 120e6
+BYTES_PER_ENTRY = 40  # of a table's row, in memory
+# Of a particle in a frame on the disk, packed: its place (""), and each field that is not near to
+# the same for all.
+BYTES_PER_POINT = {"": 11.0, "velocity": 10.0, "pressure": 3.5, "number_density": 3.5}
+BYTES_PER_NUMBER = 20.0  # of an entry of a table on the disk
+LEAST_STROKE = 0.1  # spacings
+REGULAR = ("linear", "second_order", "cnoidal", "stream_function")
+SEAS = ("irregular", "focused", "bichromatic")
+SHORTEST_WAVE = 8.0  # spacings: shorter waves are damped soon
+
+
+@dataclass(frozen=True)
+class Preflight:
+    """Findings about a case.
+
+    Attributes
+    ----------
+    findings : dict
+        Numbers, words, and dicts and lists of them, as JSON holds them and ``run.json`` has them
+        under "preflight"; a unit stands in the name, "stroke [m]". What the case has nothing of,
+        such as a wave, is left out.
+
+        - "particles": how many of each kind; "spacing [m]", "spacings_over_depth"; "tank_length
+          [m]" and "tank_width [m]" in whole spacings; "laid_out": faces of the boxes of water,
+          obstacles and gates, {"gate.0": {"x [m]": [low, high]}}, None for the bed or a wall;
+        - "time_step [s]", "time_step_limit" (what holds it), "largest_time_step [s]", "end [s]",
+          "steps", "run_time [s]" (on one core), "memory [B]";
+        - "frames", "frame [B]", "readings" (rows of gauges.csv), "tables [B]";
+        - "wavemaker": "type", "theory" (and its range, in a line), "paddle_depth [m]", "stroke
+          [m]", "wave_height [m]" that the theory expects (of a sea Hm0), and the `facts` of the
+          motion;
+        - "wave": "height [m]", "height_over_depth" and, of regular waves, "wavelength [m]" (linear
+          theory), "kh", "height_over_length", "ursell_number", "second_order_in_range"; of a
+          solitary one "celerity [m/s]"; on a beach its "slope" and what becomes of the wave there:
+          "surf_similarity", "breaker_type", "breaking_depth [m]", "breaking_height [m]",
+          "breaking_in_range", "runup [m]", or of a solitary wave "breaks";
+        - "warnings": what the run may suffer from, a line each.
+    """
+
+    findings: dict
+
+    @property
+    def warnings(self):
+        """What the run may suffer from, a list of lines."""
+        return self.findings["warnings"]
+
+    @property
+    def sections(self):
+        """The findings in words: lines of (name, value) by their heading."""
+        return sections(self.findings)
+
+    def text(self):
+        """The findings as plain lines."""
+        lines = []
+        for heading, entries in self.sections.items():
+            lines.append(heading)
+            lines += [f"  {name:<28} {value}" for name, value in entries]
+        lines += [f"Warning: {warning}" for warning in self.warnings]
+        return "\n".join(lines)
+
+
+def preflight(case):
+    """Work out the findings for a case, from numbers alone: lays out nothing and runs no step.
+
+    Returns
+    -------
+    Preflight
+
+    Raises
+    ------
+    ValueError
+        If the wavemaker cannot make the wave, or the run is larger than any can be.
+    """
+    size = sizes(case)
+    paddle = make_paddle(case)
+    notes = list(warnings(case, paddle))
+    count = census(case, paddle.backmost if paddle else 0.0)
+    found = {
+        **_particles(case, count),
+        **_cost(case, count.sum(), size, notes),
+        **_results(case, count.sum(), size),
+    }
+    if paddle:
+        notes += [*paddle.doubts, *_hardly_moves(case, paddle), *_unresolved(case, paddle)]
+        found["wavemaker"] = _wavemaker(case, paddle)
+    kind = case.wavemaker.type
+    if paddle and paddle.stroke > 0.0 and paddle.height > 0.0:
+        if kind in (*REGULAR, *SEAS):
+            period = paddle.facts.get("peak_period [s]", case.wavemaker.period)
+            found["wave"] = _regular_wave(case, paddle.height, period, notes)
+        elif kind == "solitary":
+            found["wave"] = _solitary_wave(case, paddle.height)
+    return Preflight(_plain({**found, "warnings": notes}))
+
+
+def _plain(value):
+    """The findings as JSON holds them, without numpy's numbers."""
+    if isinstance(value, dict):
+        return {name: _plain(entry) for name, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(entry) for entry in value]
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def check_ranks(case, ranks):
+    """Raise ValueError if a case cannot be shared out among so many ranks."""
+    solver_of(case, ranks)
+    if ranks > 1:
+        slabs = slabs_of(case, make_paddle(case))
+        # Of slabs that are alike, more than there are ranks change nothing.
+        balance.cut(case.parallel.balance, np.ones(min(slabs.count, ranks + 1)), ranks)
+
+
+def _particles(case, count):
+    spacing = case.particles.spacing
+    across = rows_across(case) * spacing if case.tank.width > 0.0 else 0.0
+    return {
+        "particles": dict(zip(KIND_NAMES, np.round(count).astype(int), strict=True)),
+        "spacing [m]": spacing,
+        "spacings_over_depth": case.tank.deepest / spacing,
+        "tank_length [m]": effective_length(case),
+        "tank_width [m]": across,
+        "laid_out": {**_water(case), **_obstacles(case), **_gates(case)},
+    }
+
+
+def _water(case):
+    """Faces of the boxes of water as they are laid out, where they are no whole spacings."""
+    found = {}
+    for i, box in enumerate(case.water):
+        low, high = filling.laid(case, box.start, box.end)
+        axes = [0, 1] if case.dim == 3 else [0]
+        if any(abs(a - b) > 1e-6 * case.particles.spacing for k in axes
+               for a, b in ((low[k], box.start[k]), (high[k], box.end[k]))):  # fmt: skip
+            found[f"water.{i}"] = {f"{'xy'[k]} [m]": [low[k], high[k]] for k in axes}
+    return found
+
+
+def _obstacles(case):
+    """Faces of the obstacles as they are laid out; None for the bed or a wall."""
+    axes = [0, 1, 2] if case.dim == 3 else [0, 2]
+    return {
+        f"obstacle.{i}": {
+            f"{'xyz'[k]} [m]": [face if np.isfinite(face) else None for face in (low[k], high[k])]
+            for k in axes
+        }
+        for i, (low, high) in enumerate(obstacles.blocks(case) * case.particles.spacing)
+    }
+
+
+def _gates(case):
+    """Faces of the gates as they are laid out."""
+    return {f"gate.{i}": {"x [m]": list(faces)} for i, faces in enumerate(gates.faces(case))}
+
+
+def _cost(case, n, size, notes):
+    passes = size.steps + case.scheme.settling
+    needed = BYTES_OF_PROGRAM + n * BYTES_PER_PARTICLE[case.dim]
+    needed += BYTES_PER_ENTRY * sum(_entries(case, size).values())
+    there = memory.physical()
+    if there and needed > there:
+        notes.append(
+            f"the run needs about {needed / 1e9:,.0f} GB of memory, and this machine has "
+            f"{there / 1e9:,.0f} GB"
+        )
+    return {
+        "time_step [s]": size.step,
+        "time_step_limit": size.limit,
+        "largest_time_step [s]": case.time.maximum,
+        "end [s]": case.time.end,
+        "steps": size.steps,
+        "run_time [s]": passes * n * SECONDS_PER_PARTICLE_STEP[case.dim],
+        "memory [B]": needed,
+    }
+
+
+def _entries(case, size):
+    """Entries of the tables of a run that grow with it, by name."""
+    return {
+        name: (size.steps if name == "steps" else size.readings) * len(one.columns)
+        for name, one in instruments.of(case).items()
+        if one.interval is not None
+    }
+
+
+def _results(case, n, size):
+    """Number and size of what the run writes."""
+    fields = ("", *case.output.fields)
+    return {
+        "frames": size.frames,
+        "frame [B]": n * sum(BYTES_PER_POINT.get(name, 0.1) for name in fields),
+        "readings": size.readings,
+        "tables [B]": BYTES_PER_NUMBER * sum(_entries(case, size).values()),
+    }
+
+
+def _hardly_moves(case, paddle):
+    if case.wavemaker.type != "still" and paddle.stroke < LEAST_STROKE * case.particles.spacing:
+        yield (
+            f"the piston moves by {paddle.stroke:.2g} m only until time.end = {case.time.end:g} s, "
+            "less than a tenth of particles.spacing"
+        )
+
+
+def _unresolved(case, paddle):
+    shortest = paddle.facts.get("shortest_wavelength [m]", math.inf)
+    if shortest < SHORTEST_WAVE * case.particles.spacing:
+        yield (
+            f"wavemaker.band: the shortest waves of the sea, {shortest:.3g} m, are only "
+            f"{shortest / case.particles.spacing:.2g} particles long, fewer than {SHORTEST_WAVE:g} "
+            "damp them; a lower end of the band leaves them out"
+        )
+
+
+def _wavemaker(case, paddle):
+    return {
+        "type": case.wavemaker.type,
+        "theory": paddle.note,
+        "paddle_depth [m]": case.tank.paddle_depth,
+        "stroke [m]": paddle.stroke,
+        "wave_height [m]": paddle.height,
+        **paddle.facts,
+    }
+
+
+def _regular_wave(case, height, period, notes):
+    depth, gravity = case.tank.paddle_depth, case.fluid.gravity
+    length = waves.wavelength(period, depth, gravity)
+    return {
+        "height [m]": height,
+        "wavelength [m]": length,
+        "kh": 2 * math.pi * depth / length,
+        "height_over_depth": height / depth,
+        "height_over_length": height / length,
+        "ursell_number": waves.ursell(height, length, depth),
+        "second_order_in_range": breaking.madsen_in_range(height, length, depth),
+        **(_beach(case, height, period, notes) if case.wavemaker.type in REGULAR else {}),
+    }
+
+
+def _beach(case, height, period, notes):
+    slope = waterline_slope(case)
+    if slope <= 0.0:
+        return {}
+    depth, gravity = case.tank.paddle_depth, case.fluid.gravity
+    deep_height = height / waves.shoaling_coefficient(period, depth, gravity)
+    deep_length = waves.deep_wavelength(period, gravity)
+    xi = breaking.surf_similarity(slope, deep_height, deep_length)
+    kind = breaking.breaker_type(xi)
+    found = {"slope": slope, "surf_similarity": xi, "breaker_type": kind}
+    if kind == "surging":
+        return found
+    at, breaker = breaking.breaking_point(deep_height, period, slope, gravity)
+    runup = breaking.hunt_runup(deep_height, period, slope, gravity)
+    top = max(z for _, z in case.tank.bed)
+    highest = case.tank.depth + runup
+    if top < highest:
+        notes.append(
+            f"run-up of {highest:.4g} m would reach over the beach, whose top is at {top:g} m"
+        )
+    if at < 5.0 * case.particles.spacing:
+        notes.append(
+            f"the wave breaks in a depth of {at / case.particles.spacing:.2g} spacings; a clear "
+            f"plunging jet wants 5 or more (particles.spacing <= {at / 5:.2g} m)"
+        )
+    return found | {
+        "breaking_depth [m]": at,
+        "breaking_height [m]": breaker,
+        "breaking_in_range": slope <= breaking.GODA_STEEPEST * (1.0 + 1e-9),
+        "runup [m]": runup,
+    }
+
+
+def _solitary_wave(case, height):
+    depth, gravity = case.tank.paddle_depth, case.fluid.gravity
+    found = {
+        "height [m]": height,
+        "height_over_depth": height / depth,
+        "celerity [m/s]": waves.solitary_celerity(height, depth, gravity),
+    }
+    slope = waterline_slope(case)
+    if slope > 0.0:
+        found |= {"slope": slope, "breaks": breaking.synolakis_breaks(height, depth, slope)}
+    return found
+
+
+def waterline_slope(case):
+    """Slope of the bed where the still water meets it [-]; 0 where it meets the end wall."""
+    x, z = np.array(case.tank.bed).T
+    dry = np.flatnonzero(z > case.tank.depth)
+    if len(dry) == 0:
+        return 0.0
+    return float(beds.slope(case.tank.bed, x[dry[0]] - 1e-9))

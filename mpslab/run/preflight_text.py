@@ -1,0 +1,153 @@
+"""The findings of a preflight in words, from its numbers alone."""
+
+from mpslab.theory import breaking
+
+LIMIT = f"H L^2/h^3 < {breaking.MADSEN_URSELL_LIMIT:.3g}"
+
+
+def sections(found):
+    """Lines under headings.
+
+    Parameters
+    ----------
+    found : dict
+        `mpslab.run.preflight.Preflight.findings`, or "preflight" of a ``run.json``.
+
+    Returns
+    -------
+    dict of str to list of (str, str)
+        Name and value of each line, by the heading that it stands under.
+    """
+    told = {
+        "Particles": [*_particles(found)],
+        "Cost (one core, rough)": [*_cost(found)],
+        "Results (rough)": [*_results(found)],
+    }
+    maker = found.get("wavemaker", {"stroke [m]": 0.0})
+    if maker["stroke [m]"] > 0.0:
+        told["Wavemaker"] = [*_wavemaker(maker)]
+    if "wave" in found:
+        told["Wave"] = [*_wave(found["wave"], found["spacing [m]"])]
+    return told
+
+
+def _particles(found):
+    counts, spacing = found["particles"], found["spacing [m]"]
+    kinds = ", ".join(f"{n:,} {name}" for name, n in counts.items() if n)
+    yield "particles", f"{sum(counts.values()):,} ({kinds})"
+    yield "spacing", f"{spacing * 1e3:g} mm, {found['spacings_over_depth']:.3g} over the depth"
+    width = f", {found['tank_width [m]']:.4g} m wide" if found["tank_width [m]"] else ""
+    yield "tank in whole spacings", f"{found['tank_length [m]']:.4g} m long{width}"
+    for name, faces in found["laid_out"].items():
+        sides = [_side(axis[0], *places) for axis, places in faces.items()]
+        yield f"{name} in whole spacings", ", ".join(sides)
+
+
+def _side(axis, low, high):
+    return f"{axis} {_face(low, axis)} to {_face(high, axis)}"
+
+
+def _face(place, axis):
+    if place is not None:
+        return f"{place:.4g} m"
+    return "bed" if axis == "z" else "wall"
+
+
+def _cost(found):
+    yield "expected time step", f"{found['time_step [s]']:.2g} s"
+    yield "limit of the time step", found["time_step_limit"]
+    yield "expected steps", f"{found['steps']:,} to t = {found['end [s]']:g} s"
+    yield "expected run time", _duration(found["run_time [s]"])
+    yield "expected memory", f"{found['memory [B]'] / 1e6:,.0f} MB"
+
+
+def _duration(seconds):
+    if seconds < 120.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 7200.0 else f"{seconds / 3600:.1f} h"
+
+
+def _results(found):
+    frames, size = found["frames"], found["frame [B]"]
+    yield "frames", f"{frames:,} of {_bytes(size)}, {_bytes(frames * size)}"
+    rows = f"{found['steps']:,} rows of steps, {found['readings']:,} of gauges"
+    yield "tables", f"{rows}, {_bytes(found['tables [B]'])}"
+
+
+def _bytes(number):
+    for unit, size in (("GB", 1e9), ("MB", 1e6)):
+        if number >= size:
+            return f"{number / size:,.1f} {unit}"
+    return f"{number / 1e3:.0f} kB"
+
+
+def _wavemaker(maker):
+    yield "type", maker["type"]
+    yield "stroke", _mm(maker["stroke [m]"])
+    yield "theory", maker["theory"]
+    if "rows" in maker:
+        begin, end = maker["begin [s]"], maker["end [s]"]
+        yield "record", f"{maker['rows']} rows, t = {begin:g} s to {end:g} s of the run"
+    yield from _sea(maker)
+    if "top_speed [m/s]" in maker:
+        yield "top speed", f"{maker['top_speed [m/s]']:.3g} m/s"
+        yield "largest acceleration", f"{maker['largest_acceleration [m/s2]']:.3g} m/s2"
+
+
+def _sea(maker):
+    if "significant_height [m]" in maker:
+        yield "Hm0 of the record", _mm(maker["significant_height [m]"])
+    if "largest_height [m]" in maker:
+        yield "Hmax at the piston", f"{_mm(maker['largest_height [m]'])} of {maker['waves']} waves"
+    if "spectrum_left_out" in maker:
+        yield "spectrum left out", f"{100 * maker['spectrum_left_out']:.2g} %"
+        shortest = maker["shortest_wavelength [m]"]
+        yield "components", f"{maker['components']}, down to a wave of {shortest:.3g} m"
+    if "repeats_after [s]" in maker:
+        yield "comes again after", f"{maker['repeats_after [s]']:.4g} s"
+    if "group_period [s]" in maker:
+        yield "groups", f"of {maker['group_period [s]']:.4g} s"
+    if "crest [m]" in maker:
+        yield "crest", f"{_mm(maker['crest [m]'])} above still water"
+
+
+def _mm(length):
+    return f"{length * 1e3:.3g} mm"
+
+
+def _wave(wave, spacing):
+    height = wave["height [m]"]
+    yield "height H", f"{_mm(height)}, {height / spacing:.3g} spacings"
+    yield from _regular(wave) if "wavelength [m]" in wave else _solitary(wave)
+
+
+def _regular(wave):
+    yield "wavelength L", f"{wave['wavelength [m]']:.4g} m (linear theory)"
+    yield "kh", f"{wave['kh']:.3g}"
+    yield "H/h, H/L", f"{wave['height_over_depth']:.3g}, {wave['height_over_length']:.3g}"
+    yield "Ursell number H L^2/h^3", f"{wave['ursell_number']:.3g}"
+    inside = wave["second_order_in_range"]
+    madsen = f"in range ({LIMIT})" if inside else f"out of range ({LIMIT}); cnoidal regime"
+    yield "second order piston theory", madsen
+    if "slope" in wave:
+        yield (
+            "surf similarity",
+            (
+                f"{wave['surf_similarity']:.3g} on the slope of {wave['slope']:.3g}: "
+                f"{wave['breaker_type']}"
+            ),
+        )
+    if "runup [m]" in wave:
+        outside = "" if wave["breaking_in_range"] else (
+            f"; outside of its range, slopes up to {breaking.GODA_STEEPEST:g}")  # fmt: skip
+        depth, breaker = _mm(wave["breaking_depth [m]"]), _mm(wave["breaking_height [m]"])
+        yield "breaking point (Goda 2010)", f"depth {depth}, height {breaker}{outside}"
+        yield "run-up (Hunt)", f"{_mm(wave['runup [m]'])} above still water"
+
+
+def _solitary(wave):
+    yield "H/h", f"{wave['height_over_depth']:.3g}"
+    yield "celerity", f"{wave['celerity [m/s]']:.3g} m/s"
+    if "breaks" in wave:
+        breaks = "breaks" if wave["breaks"] else "does not break (Synolakis 1987)"
+        yield "run-up on the beach", breaks

@@ -1,0 +1,418 @@
+"""One time step of the semi-implicit particle method."""
+
+import math
+from dataclasses import dataclass, field, replace
+from types import ModuleType
+
+import numpy as np
+
+from mpslab.core import plugins
+from mpslab.core.cells import make_cells
+from mpslab.core.neighbors import NeighborList
+from mpslab.core.neighbourhood import Neighbourhood
+from mpslab.core.particles import ParticleSet, on_axes
+from mpslab.core.stencil import Stencil, make_stencil
+from mpslab.core.timestep import pace
+from mpslab.forcings import forcings_of, total
+from mpslab.models import copied, friction, surface, wall_pressure
+from mpslab.parallel.domain import Domain
+from mpslab.parallel.slabs import make_slabs
+from mpslab.pressure import equation
+from mpslab.solids import layout
+from mpslab.solids.collection import Solids
+
+LAYERS = 20  # of water, up to which the weight of a density error does not depend on them
+WAKING = 2.0  # sqrt(depth / gravity): in this time the density begins to count
+FURTHEST = 1.0  # spacings that a particle goes in a step
+
+
+@dataclass
+class Flow:
+    """All that a time step works on.
+
+    Attributes
+    ----------
+    case : mpslab.core.parameters.Case
+    particles : ParticleSet
+        Those that this rank owns; within a step also its ghosts.
+    solids : Solids
+    stencil, gradient_stencil, laplacian_stencil : Stencil
+        Of the number density, of the gradient and of the Laplacian.
+    domain : Domain
+    forcings : tuple
+        Of the case, and the user's own.
+    neighbors : NeighborList
+        Where the pressure acted last.
+    near, near_gradient : Neighbourhood
+        The same pairs with their geometry, and with the radius of the gradient.
+    time : float [s]
+    done : dict
+        What the loop says of the last step, for the table of steps; empty before the first.
+    readings : dict of str to float
+        What the gauges read last, by name [m], for what moves by it.
+    reaction : mpslab.models.reaction.Reaction or None
+        Adds up what solids give the water, where somebody asks for it.
+    compression : float [1/s]
+        Largest rate at which the water of this rank ran together in the last step, before the
+        pressure acted.
+    """
+
+    case: object
+    particles: ParticleSet
+    solids: Solids
+    stencil: Stencil
+    gradient_stencil: Stencil
+    laplacian_stencil: Stencil
+    domain: Domain
+    gradient: ModuleType
+    source: ModuleType
+    solver: ModuleType
+    pair_terms: tuple
+    stabilisers: tuple
+    forcings: tuple
+    near: Neighbourhood
+    near_gradient: Neighbourhood
+    neighbors: NeighborList = field(default_factory=NeighborList)
+    time: float = 0.0
+    done: dict = field(default_factory=dict)
+    readings: dict = field(default_factory=dict)
+    reaction: object = None
+    compression: float = 0.0
+
+    @property
+    def stopwatch(self):
+        """That of the domain, which counts communication and waiting."""
+        return self.domain.stopwatch
+
+    @property
+    def extrapolates(self):
+        """Whether the walls take their pressure from the water in front of them."""
+        return self.case.scheme.walls == "extrapolated"
+
+    @property
+    def copies(self):
+        """Whether the layers behind the walls' first one have a copy of its pressure."""
+        return self.case.scheme.walls == "copied"
+
+    @property
+    def unknowns(self):
+        """Mask of the particles whose pressure is an unknown of the equation, (n,) bool."""
+        return self.particles.fluid if self.extrapolates else self.particles.carries_pressure
+
+
+def make_flow(case, particles, solids, width, forcings=(), comm=None):
+    """Load the models that a case names.
+
+    Parameters
+    ----------
+    particles : ParticleSet
+        All particles of the tank, on rank 0; the flow keeps those of this rank.
+    solids : Solids
+        Of this tank; on rank 0 they see all particles before these are shared out.
+    width : float [m]
+        Period across the tank, 0 when not periodic.
+    forcings : sequence of forcings
+        Beside those of the case.
+    comm : communicator, optional
+        As for `mpslab.parallel.domain.Domain`.
+
+    Raises
+    ------
+    ValueError
+        If the models, or the tank, cannot be shared out among so many ranks.
+    """
+    scheme, spacing = case.scheme, case.particles.spacing
+    dim = 2 if case.tank.width == 0.0 else 3
+    stencil, gradient_stencil, laplacian_stencil = (
+        make_stencil(dim, spacing, radius, width)
+        for radius in (scheme.effective_radius, scheme.radius_of_gradient, scheme.laplacian_radius)
+    )
+    slabs = slabs_of(case, solids.piston.paddle if solids.piston else None)
+    domain = Domain(slabs, comm, cells_of(case, slabs, width))
+    solver = solver_of(case, domain.size)
+    solids.begin(particles, domain.comm)
+    near = Neighbourhood(stencil)
+    return Flow(
+        case=case,
+        particles=domain.take_part(particles, case.parallel.balance),
+        solids=solids,
+        stencil=stencil,
+        gradient_stencil=gradient_stencil,
+        laplacian_stencil=laplacian_stencil,
+        domain=domain,
+        gradient=plugins.load("gradients", scheme.gradient),
+        source=plugins.load("sources", scheme.source),
+        solver=solver,
+        pair_terms=plugins.load("laplacians", scheme.laplacian).pair_terms(laplacian_stencil),
+        stabilisers=tuple(plugins.load("stabilisers", name) for name in scheme.stabiliser),
+        forcings=forcings_of(case, forcings),
+        near=near,
+        near_gradient=near if gradient_stencil == stencil else Neighbourhood(gradient_stencil),
+    )
+
+
+def slabs_of(case, paddle):
+    """The slabs of the tank of a case with a paddle, None for a fixed wall."""
+    extent = layout.extent(case, paddle.backmost if paddle else 0.0)
+    return make_slabs(*extent, case.scheme.reach * case.particles.spacing)
+
+
+def cells_of(case, slabs, width):
+    """The cells of the tank of a case, whose period is so wide [m], 0 when not periodic."""
+    tank, spacing = case.tank, case.particles.spacing
+    beyond = case.particles.layers * spacing
+    lower = np.array([slabs.lower, 0.0, 0.0]) - beyond
+    upper = np.array([slabs.lower, tank.width, tank.height]) + beyond
+    return make_cells(lower, upper, case.scheme.reach * spacing, width, slabs)
+
+
+def solver_of(case, ranks):
+    """The solver that a case names; ValueError if it cannot work on so many ranks."""
+    solver = plugins.load("solvers", case.scheme.solver)
+    if ranks > 1 and not solver.BY_SLAB:
+        raise ValueError(
+            f'scheme.solver = "{case.scheme.solver}": runs on one rank only; on {ranks} ranks '
+            'choose "deflated", "piccg" or "scg"'
+        )
+    return solver
+
+
+def density_rate(case, time):
+    """At which rate the mixed sources take back an error of the number density [1/s].
+
+    ``scheme.gamma`` is its share in `timestep.pace`, up to 20 layers of water; of more layers it
+    is less, so that the time is always the same part of that of a wave across the depth: under
+    the weight of the layers, a change of rate needs a pressure that grows with their square.
+    For the same reason it begins with nothing, and is whole after the time that a wave takes for
+    twice the depth: at once, it would give the water at rest a blow of several times its weight.
+    """
+    layers = case.tank.deepest / case.particles.spacing if case.fluid.gravity else 0.0
+    rate = case.scheme.gamma * LAYERS / max(layers, LAYERS) / pace(case)
+    waking = WAKING * math.sqrt(case.tank.deepest / case.fluid.gravity) if layers else 0.0
+    s = min(time / waking, 1.0) if waking else 1.0
+    return rate * s * s * (3.0 - 2.0 * s)
+
+
+def advance(flow, dt):
+    """Advance the flow by one time step dt [s]; returns the solver's report.
+
+    Predict with gravity and viscosity, solve for the pressure that keeps the number density,
+    correct with its gradient (equations 1 to 4 of the paper).  One neighbour list serves the
+    whole step: viscosity, too, is evaluated where the pressure acts.
+    """
+    watch, domain = flow.stopwatch, flow.domain
+    start, before = flow.particles.position.copy(), flow.particles.velocity.copy()
+    _predict(flow, dt)
+    with watch.phase("ghosts"):
+        flow.particles, (start, before) = domain.share_out(flow.particles, start, before)
+    particles, reaction = flow.particles, flow.reaction
+    if reaction:
+        reaction.begin(particles, before)
+    with watch.phase("neighbours"):
+        find_neighbors(flow)
+    with watch.phase("operators"):
+        measure(flow)
+        if reaction:
+            reaction.find(flow.near)
+        _add_viscosity(flow, dt)
+        if _stabilise(flow, "predicted", dt):
+            measure(flow)
+        graded = find_surface(flow)
+    moving = flow.solids.accelerates(particles)
+    pull = wall_pressure.pull(particles, before, force_on(flow, dt), dt, moving)
+    with watch.phase("assembly"):
+        system, rows = _assemble(flow, graded, pull, dt)
+    with watch.phase("solve"):
+        report = _solve(flow, system, rows, pull)
+    with watch.phase("operators"):
+        _correct(flow, start, dt)
+        if reaction:
+            reaction.end(flow, dt)
+    flow.particles = domain.without_ghosts(particles)
+    flow.time += dt
+    return report
+
+
+def _predict(flow, dt):
+    """u' = u + f dt with the forcings f; with projection "predicted" also r* = r + u' dt.
+
+    With that projection the solids are at their new places from here on.
+
+    The projection decides the damping.  In a wave of frequency w the pressure at r* takes away
+    (w dt)^2/2 of the amplitude in each step; at the positions of the start it takes nothing.
+    """
+    particles = flow.particles
+    flow.solids.advance(flow.time, dt, flow.readings)
+    flow.solids.push(particles, flow.time, dt)
+    particles.velocity += dt * force_on(flow, dt) * on_axes(particles.fluid)
+    if flow.case.scheme.projection == "predicted":
+        particles.position += _flight(flow, dt) * on_axes(particles.fluid)
+        flow.solids.move(particles, flow.time, dt)
+
+
+def force_on(flow, dt):
+    """Acceleration of the particles by the forcings in the middle of a step, (3,) or (n, 3)."""
+    return total(flow.forcings, flow.particles, flow.time + 0.5 * dt)
+
+
+def find_neighbors(flow):
+    """The neighbour list of the particles as they are; of ghosts only those next to the border."""
+    radius = flow.case.scheme.reach * flow.stencil.spacing
+    particles = flow.particles
+    active = np.ones(len(particles), bool) if flow.copies else flow.unknowns
+    if not getattr(flow.solver, "NEEDS_GHOST_ROWS", False):
+        active &= flow.domain.within_reach(particles.position[:, 0], radius)
+    flow.neighbors.build(
+        particles.position, radius, flow.stencil.width, active, flow.domain.cells
+    )
+
+
+def measure(flow):
+    """Geometry of the pairs in the list, and number density, where the particles are now."""
+    everywhere = np.ones(len(flow.particles), bool) if flow.extrapolates else None
+    flow.near.measure(flow.particles, flow.neighbors, everywhere)
+    if flow.near_gradient is not flow.near:
+        flow.near_gradient.measure(flow.particles, flow.neighbors, everywhere)
+    flow.particles.number_density[:] = flow.near.number_density
+
+
+def _add_viscosity(flow, dt):
+    """u* = u' + nu <lap u> dt; its share of r* is of second order in dt and left out."""
+    fluid, scheme = flow.case.fluid, flow.case.scheme
+    if fluid.viscosity == scheme.smagorinsky == 0.0:
+        return
+    eddy = friction.eddies(flow.near, scheme, flow.domain.refresh)
+
+    def change(near):
+        return dt * friction.acceleration(near, flow.laplacian_stencil, eddy, fluid, scheme)
+
+    if scheme.wall_slip:
+        flow.particles.velocity += change(flow.near)  # no solid has a part in it
+    else:
+        _act(flow, flow.near, change)
+
+
+def find_surface(flow):
+    """The surface; its grade where the scheme asks for it."""
+    graded, scheme = None, flow.case.scheme
+    if scheme.surface == "graded":
+        graded = surface.grade_surface(flow.near)
+    else:
+        surface.mark_surface(flow.near, scheme.surface_threshold, flow.unknowns)
+    flow.domain.refresh(flow.particles.surface)
+    return graded
+
+
+def _assemble(flow, graded, pull, dt):
+    particles, near, rho = flow.particles, flow.near, flow.case.fluid.density
+    stencil, terms = flow.laplacian_stencil, flow.pair_terms
+    velocity, n = particles.velocity, particles.number_density
+    towards_zero = None
+    if flow.extrapolates:
+        velocity = wall_pressure.predicted_velocity(particles, pull, dt)
+    if graded is not None:
+        towards_zero = surface.surface_pull(
+            particles, graded, flow.stencil, stencil, terms, rho
+        )
+        n = surface.filled_density(n, graded, flow.stencil)
+    rate = density_rate(flow.case, flow.time)
+    right = flow.source.source(near, velocity, n, dt, rate, flow.case.scheme)
+    mine = flow.domain.owned
+    flow.compression = dt * float(right[mine].max(initial=0.0, where=particles.fluid[mine]))
+    if flow.extrapolates:
+        right += wall_pressure.flux(near, stencil, terms, pull)
+    domain = flow.domain if flow.solver.BY_SLAB else None
+    return equation.assemble(near, stencil, terms, rho, right, flow.unknowns, towards_zero, domain)
+
+
+def _solve(flow, system, rows, pull):
+    particles, scheme = flow.particles, flow.case.scheme
+    report = equation.solve(
+        system, rows, particles, flow.solver, scheme.tolerance, scheme.max_iterations,
+        scheme.clip_pressure,
+    )  # fmt: skip
+    if flow.extrapolates:
+        wall_pressure.fill(flow.near, flow.case.fluid.density, pull, scheme.clip_pressure)
+        flow.domain.refresh(particles.pressure)
+    return report
+
+
+def _correct(flow, start, dt):
+    """u = u* - (dt/rho) grad p and r = start + u dt, then keep the particles in order."""
+    particles = flow.particles
+    _press(flow, dt)
+    moved = start + _flight(flow, dt)
+    np.copyto(particles.position, moved, where=on_axes(particles.fluid))
+    if flow.case.scheme.projection == "start":
+        flow.solids.move(particles, flow.time, dt)
+    _stabilise(flow, "corrected", dt)
+    if flow.stencil.width > 0.0:
+        particles.position[:, 1] %= flow.stencil.width
+
+
+def _press(flow, dt):
+    """u = u* - (dt/rho) grad p."""
+    near = flow.near_gradient
+    if flow.copies:
+        near.loaded = copied.fill(near)
+        # The nearest face of a ghost may lie beyond all ghosts.
+        flow.domain.refresh(near.particles.pressure, near.loaded)
+    model = flow.gradient
+
+    def change(near, gradient=model.gradient):
+        out = np.empty_like(near.particles.velocity)
+        gradient(near, out)
+        return (-dt / flow.case.fluid.density) * out
+
+    if flow.reaction and hasattr(model, "as_pairs"):
+        by_pairs, pressure = model.as_pairs(near)
+        alike = near.of(replace(near.particles, pressure=pressure))
+        flow.reaction.add(alike, lambda near: change(near, by_pairs))
+        flow.particles.velocity += change(near)
+    else:
+        _act(flow, near, change)
+
+
+def _act(flow, near, change):
+    """Change the velocity of the water by a sum over pairs; who asks for forces gets its share."""
+    if flow.reaction:
+        flow.reaction.add(near, change)
+    flow.particles.velocity += change(near)
+
+
+def _flight(flow, dt):
+    """u dt, but no more than a spacing [m], (n, 3).
+
+    Only what was alone before the step can be as fast: a particle that did not limit it must not
+    pass through what it meets.
+    """
+    path, furthest = dt * flow.particles.velocity, FURTHEST * flow.stencil.spacing
+    square = np.einsum("ij,ij->i", path, path)
+    far = np.flatnonzero(square > furthest**2)
+    path[far] *= (furthest / np.sqrt(square[far]))[:, np.newaxis]
+    return path
+
+
+def _stabilise(flow, stage, dt):
+    """Let the models of a stage move the particles; returns whether there are any."""
+    particles, models = flow.particles, [m for m in flow.stabilisers if stage == m.STAGE]
+    for model in models:
+        flow.domain.refresh(particles.position, particles.velocity)
+        _part(flow, model, dt)
+    if models and stage == "predicted":
+        flow.domain.refresh(particles.position, particles.velocity)
+    return bool(models)
+
+
+def _part(flow, model, dt):
+    """Apply a stabiliser, pass by pass."""
+    one_pass = getattr(model, "one_pass", model.stabilise)
+    felt = flow.reaction and not getattr(model, "KEEPS_VELOCITY", False)
+
+    def act(near):
+        one_pass(near, dt, pace(flow.case), flow.case.scheme)
+
+    for _ in range(getattr(model, "PASSES", 1)):
+        if felt:
+            flow.reaction.stabilise(flow.near, act)
+        act(flow.near)

@@ -1,0 +1,41 @@
+"""First-order piston for regular waves (Biesel & Suquet 1951)."""
+
+from math import inf
+
+import numpy as np
+
+from mpslab.solids import paddle
+from mpslab.solids.wavemakers import _regular
+from mpslab.theory import breaking
+
+
+def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
+    """Paddle X = (S / 2) (1 - cos omega t): it starts from its rearmost place, so at rest.
+
+    With wavemaker.first = "backward", from its foremost: X = -(S / 2) (1 - cos omega t).
+    S is wavemaker.stroke or, where that is 0, follows from the height by H / S = 4 sinh^2 kh /
+    (sinh 2kh + 2kh).
+
+    Raises ValueError as `_regular.first_order` does.
+    """
+    wave = _regular.first_order(wavemaker, depth, gravity)
+    half = 0.5 * wave.stroke * (1.0 if wavemaker.first == "forward" else -1.0)
+
+    def motion(t):
+        travel = half * (1.0 - np.cos(wave.frequency * t))
+        return paddle.soft_start(t, wavemaker.start) * travel
+
+    times, whole = (
+        paddle.sample_times(t, wavemaker.period, wavemaker.start) for t in (end, inf)
+    )
+    return paddle.from_motion(motion, times, wave.height, _note(wave), whole)
+
+
+def _note(wave):
+    note = (
+        f"first-order piston (Biesel): kh = {wave.kh:.3f}, stroke {1e3 * wave.stroke:.1f} mm"
+        f" for a wave of {1e3 * wave.height:.1f} mm, H L^2/h^3 = {wave.ursell:.1f}"
+    )
+    if wave.ursell < breaking.MADSEN_URSELL_LIMIT:
+        return note
+    return note + f", above {breaking.MADSEN_URSELL_LIMIT:.1f}: expect secondary crests"
