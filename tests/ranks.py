@@ -247,7 +247,7 @@ def struck(how, folder):
             os.kill(os.getpid(), signal.SIGKILL)
 
     rebalance.load = strike
-    sys.exit(tank.main([*SMALL, "--until", "0.02", "--out", folder]))
+    sys.exit(tank.main([*SMALL, "--until", "0.015", "--out", folder]))
 
 
 def launcher():

@@ -61,7 +61,7 @@ def test_stream_has_its_speed_along_x_which_may_be_negative_but_not_zero():
 def test_stream_without_weight_chooses_its_time_step_by_its_speed():
     changes = {"initial.type": "stream", "initial.speed": -2.0, "fluid.gravity": 0.0}
     case = make_case(changes)
-    assert case.time.maximum == pytest.approx(0.4 * case.particles.spacing / 2.0)
+    assert case.time.maximum == pytest.approx(0.2 * case.particles.spacing / 2.0)
 
 
 def test_water_at_rest_has_no_velocity():

@@ -89,21 +89,13 @@ def test_shares_count_in_a_time_that_the_step_does_not_change():
 
 
 @pytest.mark.parametrize(("projection", "courant", "largest"), [
-    ("start", 0.4, 0.4), ("predicted", 0.2, 0.1),
+    ("start", 0.4, 0.2), ("predicted", 0.2, 0.1),
 ])  # fmt: skip
 def test_limits_that_are_left_open_are_those_of_the_projection(projection, courant, largest):
     time = make_case({"scheme.projection": projection}).time
     assert time.courant == courant
     assert time.maximum == pytest.approx(largest * 0.002 / np.sqrt(9.81 * 0.02))
     assert make_case({"scheme.projection": projection, "time.courant": 0.3}).time.courant == 0.3
-
-
-@pytest.mark.parametrize("speed", [1.0, 1.5, 2.1])
-def test_gate_rises_by_a_spacing_at_most_in_the_largest_step(speed):
-    gate = {"x": 0.01, "speed": speed}
-    changes = {"gate": [gate], "water": [{"from": [0, 0, 0], "to": [0.01, 0, 0.02]}]}
-    wave = 0.4 * 0.002 / np.sqrt(9.81 * 0.02)
-    assert make_case(changes).time.maximum == pytest.approx(min(wave, 0.002 / speed))
 
 
 def test_still_water_has_no_courant_limit():

@@ -307,8 +307,8 @@ class Time:
     viscous: float = key("dt <= viscous spacing^2 / viscosity", 0.2, above=0, high=1)
     growth: float = key("dt <= growth last dt", 1.1, above=1, high=10)
     maximum: float = key(
-        "largest dt; 0 for 0.4 spacing / sqrt(gravity depth), a quarter with projection "
-        "'predicted', less where a gate is faster than a spacing in it; without gravity the "
+        "largest dt; 0 for 0.2 spacing / sqrt(gravity depth), half with projection "
+        "'predicted'; without gravity the "
         "largest speed at the start takes the place of the root",
         0.0,
         unit="s",

@@ -8,7 +8,7 @@ and the water gains energy; the rate at which it runs together tells in time, so
 from math import hypot, sqrt
 
 # Shares of the time that a wave, or the fastest water, takes for a spacing.
-LARGEST = {"start": 0.4, "predicted": 0.1}
+LARGEST = {"start": 0.2, "predicted": 0.1}
 COURANT = {"start": 0.4, "predicted": 0.2}
 PACE = 0.2
 
@@ -51,16 +51,13 @@ def choose(case, previous, max_speed, compression=0.0):
 def largest(case):
     """Largest time step where none is given [s]; 0 where nothing moves.
 
-    0.4 d0 / sqrt(g h) with the largest depth h, without gravity 0.4 d0 / speed at the start; a
-    quarter of it where the pressure acts at predicted positions, which damps waves by the step.
-    Less where a gate would rise by more than a spacing, down to `pace`.
+    0.2 d0 / sqrt(g h) with the largest depth h, without gravity 0.2 d0 / speed at the start; half
+    of it where the pressure acts at predicted positions, which damps waves by the step.
     """
     speed, spacing = wave_speed(case), case.particles.spacing
     if speed == 0.0:
         return 0.0
-    step = LARGEST[case.scheme.projection] * spacing / speed
-    gate = max((gate.speed for gate in case.gate), default=0.0)
-    return min(step, max(spacing / gate, pace(case))) if gate > 0.0 else step
+    return LARGEST[case.scheme.projection] * spacing / speed
 
 
 def pace(case):
