@@ -139,7 +139,10 @@ def test_corrected_shifting_is_the_sum_of_its_formula(dim):
     length = np.linalg.norm(expected, axis=1, keepdims=True)
     expected *= LONGEST / np.maximum(length, LONGEST)
     out, moves = np.empty_like(expected), pairs.water.astype(np.uint8)
-    repulsion.shift(near.second, near.correction, near.lean, moves, 0.1, LONGEST, out)
+    repulsion.shift(
+        near.position, near.row, near.solid, near.other, near.stencil, near.correction, moves, 0.1,
+        LONGEST, out,
+    )  # fmt: skip
     assert_close(out, expected)
 
 

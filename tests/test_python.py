@@ -183,7 +183,7 @@ def test_a_run_with_an_own_model_goes_on_only_where_it_was_added_again(tmp_path,
 
 def test_a_module_is_found_by_its_name_with_a_dot_also_when_a_run_goes_on(tmp_path, monkeypatch):
     (tmp_path / "mine").mkdir()
-    (tmp_path / "mine/plain.py").write_text("from mpslab.gradients.symmetric import *\n")
+    (tmp_path / "mine/plain.py").write_text("from mpslab.models.gradients.symmetric import *\n")
     (tmp_path / "mine/empty.py").write_text("")
     changes = {**QUICK, "scheme.gradient": "mine.plain"}
     with pytest.raises(CaseError) as caught:

@@ -134,7 +134,7 @@ def test_water_without_neighbours_does_not_count_but_faces_that_move_do():
     assert max_speed_together(particles) == 30.0
 
 
-DRIP = {"tank.length": 0.04, "tank.depth": 0.01, "tank.height": 0.08, "time.start": 2.5e-3}
+DRIP = {"tank.length": 0.04, "tank.depth": 0.01, "tank.height": 0.08, "time.start": 1.25e-3}
 
 
 def drip(speed):
