@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from ranks import alone, start
+from ranks import start
 from tanks import make_case
 
 from mpslab import Simulation, open_run
@@ -182,7 +182,7 @@ def test_forces_go_on_to_the_byte_amid_an_interval(tmp_path):
 def test_forces_are_the_same_on_any_number_of_ranks():
     changes = {**SOLIDS, "tank.length": 0.16, "scheme.solver": "scg", "time.end": 0.004,
                "force": [*ALL, {"name": "box", "on": "obstacle-1"}]}  # fmt: skip
-    (one,), several = alone("series", changes), start("series", 3, changes)
+    (one,), several = (start("series", ranks, changes) for ranks in (1, 3))
     assert [found["forces"] for found in several] == [one["forces"]] * 3
     assert len(one["forces"]) > 3
 
