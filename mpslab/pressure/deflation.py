@@ -138,10 +138,10 @@ class Nested:
     def __init__(self, deflation, tolerance, budget):
         self.tolerance = tolerance
         above, count = deflation.system, deflation.count
-        self.first = np.searchsorted(deflation.groups // SIDE**2, np.arange(len(above.first)))
-        begin, end = int(self.first[above.begin]), int(self.first[above.end])
+        first = np.searchsorted(deflation.groups // SIDE**2, np.arange(len(above.first)))
+        begin, end = int(first[above.begin]), int(first[above.end])
         own = slice(*above.own)
-        rows = np.argsort(deflation.group[own], kind="stable").astype(np.int32) + own.start
+        rows = np.argsort(deflation.group[own], kind="stable") + own.start
         size = np.bincount(deflation.group[own], minlength=count)
         row, diagonal = np.zeros(count + 1, np.int32), np.zeros(count)
         column = np.empty(len(deflation.member), np.int32)
@@ -154,7 +154,7 @@ class Nested:
         cell = np.column_stack([deflation.groups // SIDE % SIDE, deflation.groups % SIDE])
         self.system = PressureSystem(
             row, column[:entries], value[:entries], diagonal, np.zeros(count),
-            self.first.astype(np.int32), above.domain, (cell - SIDE // 2).astype(np.int32),
+            first.astype(np.int32), above.domain, (cell - SIDE // 2).astype(np.int32),
         )  # fmt: skip
         self.system.refresh(diagonal)
         diagonal[diagonal == 0.0] = 1.0  # of groups that no row here is coupled to
@@ -164,7 +164,7 @@ class Nested:
         """(Z^T A Z)^-1 of the sums of this rank's groups, a value for each it has to do with."""
         system, y = self.system, np.zeros(len(sums))
         system.right = sums
-        self.report = conjugate_gradient(
+        conjugate_gradient(
             system, y, by_diagonal(system), self.tolerance, MOST, deflation=self.deflation
         )
         system.refresh(y)

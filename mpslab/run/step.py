@@ -36,8 +36,8 @@ class Flow:
     particles : ParticleSet
         Those that this rank owns; within a step also its ghosts.
     solids : Solids
-    stencil, gradient_stencil, laplacian_stencil : Stencil
-        Of the number density, of the gradient and of the Laplacian.
+    stencil, laplacian_stencil : Stencil
+        Of the number density and of the Laplacian.
     domain : Domain
     forcings : tuple
         Of the case, and the user's own.
@@ -61,7 +61,6 @@ class Flow:
     particles: ParticleSet
     solids: Solids
     stencil: Stencil
-    gradient_stencil: Stencil
     laplacian_stencil: Stencil
     domain: Domain
     gradient: ModuleType
@@ -137,7 +136,6 @@ def make_flow(case, particles, solids, width, forcings=(), comm=None):
         particles=domain.take_part(particles, case.parallel.balance),
         solids=solids,
         stencil=stencil,
-        gradient_stencil=gradient_stencil,
         laplacian_stencil=laplacian_stencil,
         domain=domain,
         gradient=plugins.load("gradients", scheme.gradient),
@@ -357,20 +355,17 @@ def _press(flow, dt):
         near.loaded = copied.fill(near)
         # The nearest face of a ghost may lie beyond all ghosts.
         flow.domain.refresh(near.particles.pressure, near.loaded)
-    model = flow.gradient
+    gradient = flow.gradient.gradient
+    if flow.reaction and hasattr(flow.gradient, "as_pairs"):
+        gradient, pressure = flow.gradient.as_pairs(near)
+        near = near.of(replace(near.particles, pressure=pressure))
 
-    def change(near, gradient=model.gradient):
+    def change(near):
         out = np.empty_like(near.particles.velocity)
         gradient(near, out)
         return (-dt / flow.case.fluid.density) * out
 
-    if flow.reaction and hasattr(model, "as_pairs"):
-        by_pairs, pressure = model.as_pairs(near)
-        alike = near.of(replace(near.particles, pressure=pressure))
-        flow.reaction.add(alike, lambda near: change(near, by_pairs))
-        flow.particles.velocity += change(near)
-    else:
-        _act(flow, near, change)
+    _act(flow, near, change)
 
 
 def _act(flow, near, change):
