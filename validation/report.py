@@ -9,10 +9,10 @@ import re
 import sys
 from pathlib import Path
 
-import jinja2
 import markdown
 from markupsafe import Markup
 
+from mpslab.analysis.page import templates
 from mpslab.core.files import replacing
 from validation import browser, figures, words
 from validation.judge import MISSED, OPEN
@@ -90,13 +90,7 @@ def render(results, folder):
     -------
     str
     """
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
+    environment = templates(Path(__file__).parent)
     environment.filters |= {
         "number": words.number,
         "band": words.band,

@@ -28,17 +28,8 @@ def render(sea, pictures):
     -------
     str
     """
-    import jinja2
-
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     headings, rows = sheets.gauge_table(sea)
-    return environment.get_template("page.html.j2").render(
+    return templates(Path(__file__).parent).get_template("page.html.j2").render(
         case=sea.run.tables,
         sea=sea,
         outcome=sea.run.outcome or "unknown",
@@ -47,6 +38,19 @@ def render(sea, pictures):
         reflection=sheets.reflection_lines(sea),
         expected=sheets.expected_lines(sea),
         pictures={name: _url(content) for name, content in pictures.items()},
+    )
+
+
+def templates(folder):
+    """The templates in a folder, as a jinja2 environment that bears no undefined name."""
+    import jinja2
+
+    return jinja2.Environment(
+        loader=jinja2.FileSystemLoader(folder),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
     )
 
 
