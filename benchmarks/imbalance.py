@@ -12,7 +12,7 @@ import numpy as np
 from mpslab import open_run
 from mpslab.parallel import balance
 from mpslab.parallel.rebalance import load
-from mpslab.run.step import slabs_of
+from mpslab.run.flow import slabs_of
 from mpslab.solids.piston import make_paddle
 
 METHODS = ("static", "centroid", "optimal")

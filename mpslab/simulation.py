@@ -22,9 +22,10 @@ from mpslab.parallel.domain import world
 from mpslab.parallel.rebalance import Rebalancer
 from mpslab.run import initial, settling
 from mpslab.run.actions import Actions
+from mpslab.run.flow import make_flow
 from mpslab.run.guard import RunFailed, check_finite, check_lost, check_step, find_lost
 from mpslab.run.record import Record
-from mpslab.run.step import advance, make_flow
+from mpslab.run.step import advance
 from mpslab.solids import layout
 from mpslab.solids.collection import solids_of
 from mpslab.solids.piston import make_paddle

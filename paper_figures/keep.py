@@ -12,7 +12,7 @@ from mpslab.output import vtkhdf
 from mpslab.output.tables import read_table
 from mpslab.parallel import balance
 from mpslab.parallel.rebalance import load
-from mpslab.run.step import slabs_of
+from mpslab.run.flow import slabs_of
 from mpslab.solids.piston import make_paddle
 from paper_figures.measures import measure
 

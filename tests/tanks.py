@@ -13,7 +13,8 @@ from mpslab.core.neighbors import NeighborList
 from mpslab.core.neighbourhood import Neighbourhood
 from mpslab.core.particles import make_particles
 from mpslab.core.stencil import make_stencil
-from mpslab.run.step import advance, make_flow
+from mpslab.run.flow import make_flow
+from mpslab.run.step import advance
 from mpslab.solids import layout
 from mpslab.solids.collection import solids_of
 from mpslab.solids.piston import make_paddle

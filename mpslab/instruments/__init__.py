@@ -48,7 +48,7 @@ class Instrument:
 
         Parameters
         ----------
-        flow : mpslab.run.step.Flow
+        flow : mpslab.run.flow.Flow
             Its particles are those that this rank owns; ``flow.domain.total(values)`` adds (n,)
             values of them over all ranks, to the same bits on any number of them.
         """

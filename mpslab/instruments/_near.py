@@ -8,7 +8,7 @@ def read_near(flow, places, reach, read):
 
     Parameters
     ----------
-    flow : mpslab.run.step.Flow
+    flow : mpslab.run.flow.Flow
     places : sequence of float [m]
         Along the tank.
     reach : float [m]

@@ -13,8 +13,8 @@ from mpslab.core import memory
 from mpslab.core.kinds import KIND_NAMES
 from mpslab.core.lattice import effective_length, rows_across
 from mpslab.parallel import balance
+from mpslab.run.flow import slabs_of, solver_of
 from mpslab.run.preflight_text import sections
-from mpslab.run.step import slabs_of, solver_of
 from mpslab.solids import filling, gates, obstacles
 from mpslab.solids.census import census
 from mpslab.solids.piston import make_paddle

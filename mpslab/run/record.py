@@ -22,7 +22,7 @@ class Record:
     Parameters
     ----------
     case : mpslab.core.parameters.Case
-    flow : mpslab.run.step.Flow
+    flow : mpslab.run.flow.Flow
     folder : mpslab.output.run_folder.RunFolder or None
         None keeps everything in memory.
     instruments : dict of str to mpslab.instruments.Instrument

@@ -1,194 +1,19 @@
 """One time step of the semi-implicit particle method."""
 
 import math
-from dataclasses import dataclass, field, replace
-from types import ModuleType
+from dataclasses import replace
 
 import numpy as np
 
-from mpslab.core import plugins
-from mpslab.core.cells import make_cells
-from mpslab.core.neighbors import NeighborList
-from mpslab.core.neighbourhood import Neighbourhood
-from mpslab.core.particles import ParticleSet, on_axes
-from mpslab.core.stencil import Stencil, make_stencil
+from mpslab.core.particles import on_axes
 from mpslab.core.timestep import pace
-from mpslab.forcings import forcings_of, total
+from mpslab.forcings import total
 from mpslab.models import copied, friction, surface, wall_pressure
-from mpslab.parallel.domain import Domain
-from mpslab.parallel.slabs import make_slabs
 from mpslab.pressure import equation
-from mpslab.solids import layout
-from mpslab.solids.collection import Solids
 
 LAYERS = 20  # of water, up to which the weight of a density error does not depend on them
 WAKING = 2.0  # sqrt(depth / gravity): in this time the density begins to count
 FURTHEST = 1.0  # spacings that a particle goes in a step
-
-
-@dataclass
-class Flow:
-    """All that a time step works on.
-
-    Attributes
-    ----------
-    case : mpslab.core.parameters.Case
-    particles : ParticleSet
-        Those that this rank owns; within a step also its ghosts.
-    solids : Solids
-    stencil, laplacian_stencil : Stencil
-        Of the number density and of the Laplacian.
-    domain : Domain
-    forcings : tuple
-        Of the case, and the user's own.
-    neighbors : NeighborList
-        Where the pressure acted last.
-    near, near_gradient : Neighbourhood
-        The same pairs with their geometry, and with the radius of the gradient.
-    time : float [s]
-    done : dict
-        What the loop says of the last step, for the table of steps; empty before the first.
-    readings : dict of str to float
-        What the gauges read last, by name [m], for what moves by it.
-    reaction : mpslab.models.reaction.Reaction or None
-        Adds up what solids give the water, where somebody asks for it.
-    compression : float [1/s]
-        Largest rate at which the water of this rank ran together in the last step, before the
-        pressure acted.
-    """
-
-    case: object
-    particles: ParticleSet
-    solids: Solids
-    stencil: Stencil
-    laplacian_stencil: Stencil
-    domain: Domain
-    gradient: ModuleType
-    source: ModuleType
-    solver: ModuleType
-    pair_terms: tuple
-    stabilisers: tuple
-    forcings: tuple
-    near: Neighbourhood
-    near_gradient: Neighbourhood
-    neighbors: NeighborList = field(default_factory=NeighborList)
-    time: float = 0.0
-    done: dict = field(default_factory=dict)
-    readings: dict = field(default_factory=dict)
-    reaction: object = None
-    compression: float = 0.0
-
-    @property
-    def stopwatch(self):
-        """That of the domain, which counts communication and waiting."""
-        return self.domain.stopwatch
-
-    @property
-    def extrapolates(self):
-        """Whether the walls take their pressure from the water in front of them."""
-        return self.case.scheme.walls == "extrapolated"
-
-    @property
-    def copies(self):
-        """Whether the layers behind the walls' first one have a copy of its pressure."""
-        return self.case.scheme.walls == "copied"
-
-    @property
-    def unknowns(self):
-        """Mask of the particles whose pressure is an unknown of the equation, (n,) bool."""
-        return self.particles.fluid if self.extrapolates else self.particles.carries_pressure
-
-
-def make_flow(case, particles, solids, width, forcings=(), comm=None):
-    """Load the models that a case names.
-
-    Parameters
-    ----------
-    particles : ParticleSet
-        All particles of the tank, on rank 0; the flow keeps those of this rank.
-    solids : Solids
-        Of this tank; on rank 0 they see all particles before these are shared out.
-    width : float [m]
-        Period across the tank, 0 when not periodic.
-    forcings : sequence of forcings
-        Beside those of the case.
-    comm : communicator, optional
-        As for `mpslab.parallel.domain.Domain`.
-
-    Raises
-    ------
-    ValueError
-        If the models, or the tank, cannot be shared out among so many ranks.
-    """
-    scheme, spacing = case.scheme, case.particles.spacing
-    dim = 2 if case.tank.width == 0.0 else 3
-    stencil, gradient_stencil, laplacian_stencil = (
-        make_stencil(dim, spacing, radius, width)
-        for radius in (scheme.effective_radius, scheme.radius_of_gradient, scheme.laplacian_radius)
-    )
-    slabs = slabs_of(case, solids.piston.paddle if solids.piston else None)
-    domain = Domain(slabs, comm, cells_of(case, slabs, width))
-    solver = solver_of(case, domain.size)
-    solids.begin(particles, domain.comm)
-    near = Neighbourhood(stencil)
-    return Flow(
-        case=case,
-        particles=domain.take_part(particles, case.parallel.balance),
-        solids=solids,
-        stencil=stencil,
-        laplacian_stencil=laplacian_stencil,
-        domain=domain,
-        gradient=plugins.load("gradients", scheme.gradient),
-        source=plugins.load("sources", scheme.source),
-        solver=solver,
-        pair_terms=plugins.load("laplacians", scheme.laplacian).pair_terms(laplacian_stencil),
-        stabilisers=tuple(plugins.load("stabilisers", name) for name in scheme.stabiliser),
-        forcings=forcings_of(case, forcings),
-        near=near,
-        near_gradient=near if gradient_stencil == stencil else Neighbourhood(gradient_stencil),
-    )
-
-
-def slabs_of(case, paddle):
-    """The slabs of the tank of a case with a paddle, None for a fixed wall."""
-    extent = layout.extent(case, paddle.backmost if paddle else 0.0)
-    return make_slabs(*extent, case.scheme.reach * case.particles.spacing)
-
-
-def cells_of(case, slabs, width):
-    """The cells of the tank of a case, whose period is so wide [m], 0 when not periodic."""
-    tank, spacing = case.tank, case.particles.spacing
-    beyond = case.particles.layers * spacing
-    lower = np.array([slabs.lower, 0.0, 0.0]) - beyond
-    upper = np.array([slabs.lower, tank.width, tank.height]) + beyond
-    return make_cells(lower, upper, case.scheme.reach * spacing, width, slabs)
-
-
-def solver_of(case, ranks):
-    """The solver that a case names; ValueError if it cannot work on so many ranks."""
-    solver = plugins.load("solvers", case.scheme.solver)
-    if ranks > 1 and not solver.BY_SLAB:
-        raise ValueError(
-            f'scheme.solver = "{case.scheme.solver}": runs on one rank only; on {ranks} ranks '
-            'choose "deflated", "piccg" or "scg"'
-        )
-    return solver
-
-
-def density_rate(case, time):
-    """At which rate the mixed sources take back an error of the number density [1/s].
-
-    ``scheme.gamma`` is its share in `timestep.pace`, up to 20 layers of water; of more layers it
-    is less, so that the time is always the same part of that of a wave across the depth: under
-    the weight of the layers, a change of rate needs a pressure that grows with their square.
-    For the same reason it begins with nothing, and is whole after the time that a wave takes for
-    twice the depth: at once, it would give the water at rest a blow of several times its weight.
-    """
-    layers = case.tank.deepest / case.particles.spacing if case.fluid.gravity else 0.0
-    rate = case.scheme.gamma * LAYERS / max(layers, LAYERS) / pace(case)
-    waking = WAKING * math.sqrt(case.tank.deepest / case.fluid.gravity) if layers else 0.0
-    s = min(time / waking, 1.0) if waking else 1.0
-    return rate * s * s * (3.0 - 2.0 * s)
 
 
 def advance(flow, dt):
@@ -321,6 +146,22 @@ def _assemble(flow, graded, pull, dt):
         right += wall_pressure.flux(near, stencil, terms, pull)
     domain = flow.domain if flow.solver.BY_SLAB else None
     return equation.assemble(near, stencil, terms, rho, right, flow.unknowns, towards_zero, domain)
+
+
+def density_rate(case, time):
+    """At which rate the mixed sources take back an error of the number density [1/s].
+
+    ``scheme.gamma`` is its share in `timestep.pace`, up to 20 layers of water; of more layers it
+    is less, so that the time is always the same part of that of a wave across the depth: under
+    the weight of the layers, a change of rate needs a pressure that grows with their square.
+    For the same reason it begins with nothing, and is whole after the time that a wave takes for
+    twice the depth: at once, it would give the water at rest a blow of several times its weight.
+    """
+    layers = case.tank.deepest / case.particles.spacing if case.fluid.gravity else 0.0
+    rate = case.scheme.gamma * LAYERS / max(layers, LAYERS) / pace(case)
+    waking = WAKING * math.sqrt(case.tank.deepest / case.fluid.gravity) if layers else 0.0
+    s = min(time / waking, 1.0) if waking else 1.0
+    return rate * s * s * (3.0 - 2.0 * s)
 
 
 def _solve(flow, system, rows, pull):
