@@ -1,6 +1,5 @@
 """The run: choose a time step, advance, write down."""
 
-import json
 import time as clock
 from collections import Counter
 from contextlib import suppress
@@ -9,26 +8,20 @@ from numbers import Real
 import numpy as np
 
 from mpslab.cases import dumps, inputs
-from mpslab.core import diagnostics, own, timestep
+from mpslab.core import diagnostics, timestep
 from mpslab.core.keys import require_choice
 from mpslab.core.memory import keep_freed
-from mpslab.core.particles import ParticleSet, no_particles
+from mpslab.core.own import Own
 from mpslab.core.schedule import due
 from mpslab.instruments import with_own
-from mpslab.output import checkpoint, restart
+from mpslab.output import restart
 from mpslab.output.run_folder import RunFolder, take
-from mpslab.parallel.communicator import on_root
-from mpslab.parallel.domain import world
 from mpslab.parallel.rebalance import Rebalancer
-from mpslab.run import initial, settling
+from mpslab.run import start
 from mpslab.run.actions import Actions
-from mpslab.run.flow import make_flow
 from mpslab.run.guard import RunFailed, check_finite, check_lost, check_step, find_lost
 from mpslab.run.record import Record
 from mpslab.run.step import advance
-from mpslab.solids import layout
-from mpslab.solids.collection import solids_of
-from mpslab.solids.piston import make_paddle
 
 STOPPED = ("interrupted", "stopped")
 
@@ -68,45 +61,26 @@ class Simulation:
     """
 
     def __init__(self, case, out=None, instruments=(), forcings=(), solids=()):
-        reading = with_own(case, instruments)
+        own = Own(tuple(instruments), tuple(forcings), tuple(solids))
+        reading = with_own(case, own.instruments)
         if not (out is None or isinstance(out, RunFolder)):
             out = take(RunFolder.create, out)
         try:
             files = inputs.of(case)
-            self._own = {"forcings": tuple(forcings), "solids": tuple(solids)}
-            flow = self._lay_out(case)
+            flow = start.lay_out(case, own)
         except BaseException:
             if out is not None:
                 out.abandon()
             raise
-        self._set_up(flow, out, files, reading)
+        self._set_up(flow, out, files, own, reading)
         self._record.write_case(self._text, files)
         self._record.begin()
         self._record.read_all()
         self._record.add_frame()
         self._write_checkpoint()
 
-    def _lay_out(self, case):
-        """The water of a case, settled."""
-        paddle = make_paddle(case)
-        backmost = paddle.backmost if paddle else 0.0
-        solids = self._own["solids"]
-        flow = self._flow_of(
-            case, paddle, lambda: layout.build_particles(case, backmost, solids)
-        )
-        self.at_start = sum(flow.domain.from_all(int(np.count_nonzero(flow.particles.fluid))))
-        settling.settle(flow)
-        initial.set_velocity(case, flow.particles, flow.domain.total)
-        return flow
-
-    def _flow_of(self, case, paddle, make):
-        """The flow of the particles that `make` gives on rank 0: no other holds the whole tank."""
-        particles = on_root(world(), make) or no_particles()
-        solids = solids_of(case, paddle, self._own["solids"])
-        return make_flow(case, particles, solids, layout.period(case), self._own["forcings"])
-
     @classmethod
-    def resume(cls, folder, changes=None, instruments=(), forcings=None, solids=None):
+    def resume(cls, folder, changes=None, instruments=None, forcings=None, solids=None):
         """Go on with the run in a folder from its last checkpoint.
 
         Parameters
@@ -115,61 +89,53 @@ class Simulation:
         changes : dict, optional
             Values that replace those of the case, by key: {"time.end": 3.0}. What may change is
             told in `mpslab.output.restart`.
-        instruments : sequence of mpslab.Instrument, optional
-            Those that the run began with.
-        forcings, solids : sequence, optional
-            One's own that the run began with; left out, they are found by their names.
+        instruments, forcings, solids : sequence, optional
+            One's own that the run began with; left out, they are found by their names
+            (`mpslab.core.own`).
 
         Raises
         ------
         ValueError
             If the folder holds no run, or another run has it, its checkpoint is damaged, an input
             file is not what it was, the case differs from that of the checkpoint in what cannot
-            change, or an instrument, a model, a forcing or a solid of the user's own is not there
-            again.
+            change, or an instrument, a model, a forcing or a solid of the user's own is neither
+            given nor found.
         """
         folder = take(RunFolder.reopen, folder)
         try:
-            given = {"forcings": forcings, "solids": solids}
-            return cls._resumed(folder, changes, tuple(instruments), given)
+            found = restart.look(folder, changes, Own(instruments, forcings, solids))
+            reading = with_own(found.case, found.own.instruments)
+            flow = start.take_up(found, folder.checkpoint)
+            self = cls.__new__(cls)
+            self._set_up(flow, folder, found.inputs, found.own, reading)
+            self._take_up(found)
         except BaseException:
             folder.let_go()
             raise
-
-    @classmethod
-    def _resumed(cls, folder, changes, instruments, given):
-        found = restart.look(folder, changes, instruments)
-        case, state = found.case, found.state
-        reading = with_own(case, instruments)
-        self = cls.__new__(cls)
-        self._own = own.again(state["own"], given)
-        flow = self._flow_of(
-            case, make_paddle(case), lambda: ParticleSet(**checkpoint.read(folder.checkpoint)[0])
-        )
-        flow.solids.restore(state)
-        flow.readings.update(json.loads(state["readings"]))
-        self._set_up(flow, folder, found.inputs, reading)
-        self.step, self.dt, self.lost = state["step"], state["dt"], state["lost"]
-        self.at_start = state["at_start"]
-        self._flow.time, self._flow.compression = state["time"], state.get("compression", 0.0)
-        self._record.begin(self.step)
-        self._record.restore(state)
-        self._record.note_resume(state, found.changes, self._text, found.inputs)
         return self
 
-    def _set_up(self, flow, folder, files, reading):
+    def _set_up(self, flow, folder, files, own, reading):
         case = inputs.pointed(flow.case, files, folder.path) if folder else flow.case
         self.case = flow.case = case
-        self._files = inputs.to_text(files)
+        self._files, self._own = inputs.to_text(files), own
         self._text = dumps(inputs.pointed(case, files))
         self.step, self.dt, self.lost, self._sides = 0, 0.0, 0, Counter()
+        self.at_start = sum(flow.domain.from_all(int(np.count_nonzero(flow.particles.fluid))))
         self.stop_requested = False
         self.outcome, self.reason = "running", None
         self._flow = flow
         keep_freed()
-        self._record = Record(case, flow, folder, reading)
-        self._outside, self._actions = restart.outside(case, reading), Actions()
+        self._record, self._actions = Record(case, flow, folder, reading), Actions()
         self._rebalancer = Rebalancer(flow.domain, case.parallel.balance)
+
+    def _take_up(self, found):
+        """Go on from a checkpoint, and note so in the folder."""
+        state = found.state
+        self.step, self.dt, self.lost = state["step"], state["dt"], state["lost"]
+        self.at_start = state["at_start"]
+        self._record.begin(self.step)
+        self._record.restore(state)
+        self._record.note_resume(state, found.changes, self._text, found.inputs)
 
     @property
     def particles(self):
@@ -385,18 +351,14 @@ class Simulation:
 
     def _state(self):
         return {
-            "time": self.time,
+            **self._flow.state(),
             "step": self.step,
             "dt": self.dt,
-            "compression": max(self.domain.from_all(self._flow.compression)),
             "lost": self.lost,
             "at_start": self.at_start,
-            **self._flow.solids.state(),
-            "readings": json.dumps(self._flow.readings),
-            "own": own.to_text(self._own),
+            "own": self._own.to_text(self.case),
             "case": self._text,
             "inputs": self._files,
-            "outside": self._outside,
             **self._record.state(),
         }
 

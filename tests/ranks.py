@@ -183,17 +183,18 @@ def spoiled(how, folder):
 
 def refused(folder):
     """A start at which one rank alone finds fault with the input."""
-    from mpslab import simulation, tank
+    from mpslab import tank
     from mpslab.parallel.domain import world
+    from mpslab.run import start
 
-    make = simulation.make_flow
+    make = start.make_flow
 
     def find_fault(*arguments):
         if world().rank == 1:
             raise ValueError("only here")
         return make(*arguments)
 
-    simulation.make_flow = find_fault
+    start.make_flow = find_fault
     sys.exit(tank.main([*SMALL, "--out", folder]))
 
 

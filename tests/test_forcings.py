@@ -206,12 +206,12 @@ def test_own_forcing_without_a_name_is_refused_unless_it_is_given_again(tmp_path
         return np.array([0.1, 0.0, 0.0])
 
     Simulation(make_case(), tmp_path / "run", forcings=[breeze]).run(until=0.005)
-    with pytest.raises(ValueError, match="must be given to Simulation"):
+    with pytest.raises(ValueError, match=r"given again, Simulation.resume\(folder, forcings"):
         Simulation.resume(tmp_path / "run")
     Simulation.resume(tmp_path / "run", forcings=[breeze])
 
 
 def test_another_forcing_than_the_run_began_with_is_refused(tmp_path):
     Simulation(make_case(), tmp_path / "run", forcings=[wind]).run(until=0.005)
-    with pytest.raises(ValueError, match=r"forcings = \[\]: must be \['test_forcings:wind'\]"):
+    with pytest.raises(ValueError, match=r"forcings = \[\]: .*, \['test_forcings:wind'\]"):
         Simulation.resume(tmp_path / "run", forcings=[])

@@ -15,7 +15,7 @@ import pytest
 from ranks import SMALL, TIMEOUT, environment, tank
 from tanks import make_case
 
-from mpslab import cases, measures, simulation
+from mpslab import cases, measures
 from mpslab import tank as command_line
 from mpslab.output import lock
 from mpslab.output.lock import FolderLock, InUse
@@ -203,7 +203,7 @@ def test_a_folder_is_taken_before_the_water_is_laid_out_and_given_up_if_that_fai
     (tmp_path / "empty").mkdir()
     (tmp_path / "test.toml").write_text(cases.dumps(make_case(QUICK)))
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(simulation, "make_flow", fail)
+    monkeypatch.setattr("mpslab.run.start.make_flow", fail)
     assert command_line.main(["test.toml", *(["--out", out] if out else [])]) == 2
     assert capsys.readouterr().err == "mpslab: particles.spacing = 1: does not fit\n"
     assert len(seen) == 1

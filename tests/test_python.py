@@ -1,10 +1,12 @@
 """What users add from outside of the package: instruments, models, and actions."""
 
+import json
 import re
 import sys
 from pathlib import Path
 from types import SimpleNamespace
 
+import h5py
 import numpy as np
 import pytest
 from tanks import make_case
@@ -64,7 +66,7 @@ def test_examples_of_the_page_run(tmp_path, monkeypatch, capsys, added):
     for block in blocks:
         exec(compile(block, "docs/python.md", "exec"), names)
     said = capsys.readouterr().out
-    assert "must be those that the run began with, ['front']" in said
+    assert "the run began with 'front', and no module holds it by a name" in said
     assert mpslab.open_run("plain").outcome == "finished"
 
 
@@ -78,6 +80,45 @@ def test_own_instrument_has_a_table_and_goes_on_to_the_byte(tmp_path):
     read = mpslab.open_run(tmp_path / "whole").table("highest")
     assert read.dtype.names == ("time", "z", "so far") and len(read) == 7
     assert read.tolist() == whole.table("highest").tolist()
+
+
+class Mine:
+    """A gradient that a module holds by a name."""
+
+    CONSERVES_MOMENTUM = corrected.CONSERVES_MOMENTUM
+    gradient = staticmethod(corrected.gradient)
+
+
+highest = Highest()
+
+
+def test_parts_that_a_module_holds_by_a_name_are_found_again(tmp_path, added):
+    mpslab.add_model("gradients", "mine", Mine)
+    case = make_case({**QUICK, "scheme.gradient": "mine"})
+    whole = mpslab.Simulation(case, instruments=[Highest()]).run()
+    mpslab.Simulation(case, tmp_path / "run", instruments=[highest]).run(until=0.003)
+    plugins._added.clear()
+    run = mpslab.Simulation.resume(tmp_path / "run").run()
+    assert run.particles.position.tobytes() == whole.particles.position.tobytes()
+    assert run.table("highest")[-1] == whole.table("highest")[-1]
+    assert plugins.load("gradients", "mine") is Mine
+
+
+def test_parts_in_the_checkpoint_of_an_earlier_mpslab_are_refused(tmp_path):
+    def keep(instruments):
+        with h5py.File(tmp_path / "run/checkpoint.h5", "a") as file:
+            state = file["state"]
+            del state["own"]
+            state["own"] = '{"forcings": [], "solids": []}'
+            state["outside"] = json.dumps({"models": [], "instruments": instruments})
+
+    mpslab.Simulation(make_case(QUICK), tmp_path / "run").run(until=0.002)
+    keep([])
+    mpslab.Simulation.resume(tmp_path / "run").run(until=0.003)
+    keep(["highest"])
+    with pytest.raises(ValueError) as caught:
+        mpslab.Simulation.resume(tmp_path / "run")
+    one_line(caught, "of an earlier mpslab", "run the case anew")
 
 
 @pytest.mark.parametrize("given", [[], ["another"], ["highest", "another"]])
@@ -174,7 +215,7 @@ def test_a_run_with_an_own_model_goes_on_only_where_it_was_added_again(tmp_path,
     plugins._added.clear()
     with pytest.raises(CaseError) as caught:
         mpslab.Simulation.resume(tmp_path / "parts")
-    one_line(caught, "scheme.gradient = 'mine' is a model from outside", "mpslab.add_model(")
+    one_line(caught, "models: the run began with 'gradients.mine'", "mpslab.add_model('gradients'")
     mpslab.add_model("gradients", "mine", corrected)
     mpslab.Simulation.resume(tmp_path / "parts").run()
     whole, parts = (mpslab.open_run(tmp_path / name).steps for name in ("whole", "parts"))

@@ -4,7 +4,7 @@ import json
 from dataclasses import dataclass, fields
 
 from mpslab.cases import inputs, load_case, loads
-from mpslab.core import plugins
+from mpslab.core import own, plugins
 from mpslab.core.keys import CaseError, shown, toml_name
 from mpslab.core.parameters import LISTS, TABLES, Case
 from mpslab.output import checkpoint
@@ -12,6 +12,8 @@ from mpslab.output import checkpoint
 # What neither the state of a run nor its layout follows from; all else is fixed when it begins.
 FREE = ("name", "title", "time.end", "scheme.tolerance", "scheme.max_iterations")
 FREE_TABLES = ("parallel", "output")
+
+NOTHING = own.Own(None, None, None)  # given of the user's own: all is looked for
 
 # What could change but for the files that the run has begun.
 HELD = {"output.fields": "the frames of particles.vtkhdf have their fields"}
@@ -27,6 +29,7 @@ class Restart:
     state : dict
         Of the checkpoint, as `mpslab.output.checkpoint.read` gives it.
     inputs : tuple of mpslab.cases.inputs.Input
+    own : mpslab.core.own.Own
     changes : dict of str to [old, new]
         The keys of the case that differ from those of the checkpoint.
     """
@@ -34,16 +37,11 @@ class Restart:
     case: Case
     state: dict
     inputs: tuple
+    own: own.Own
     changes: dict
 
 
-def outside(case, instruments):
-    """What a run has from outside of mpslab, models and instruments, as text for the checkpoint."""
-    names = sorted(set(instruments) - set(plugins.names("instruments")))
-    return json.dumps({"models": plugins.added(case), "instruments": names})
-
-
-def look(folder, overrides=None, instruments=()):
+def look(folder, overrides=None, given=NOTHING):
     """Find what a run goes on with; writes nothing.
 
     Parameters
@@ -51,8 +49,8 @@ def look(folder, overrides=None, instruments=()):
     folder : mpslab.output.run_folder.RunFolder
     overrides : dict, optional
         Values that replace those of ``case.toml``, by key, as for `mpslab.load_case`.
-    instruments : sequence of mpslab.instruments.Instrument
-        Those of the user.
+    given : mpslab.core.own.Own
+        What the run is given again of the user's own; the rest is looked for.
 
     Returns
     -------
@@ -63,7 +61,7 @@ def look(folder, overrides=None, instruments=()):
     ValueError
         If the checkpoint is damaged or does not hold its case, an input file is not what it was,
         the case differs from that of the checkpoint in what cannot change, or what the run has of
-        the user's own is not there.
+        the user's own is neither given nor found.
     """
     state = checkpoint.read_state(folder.checkpoint)
     if "case" not in state:
@@ -71,7 +69,7 @@ def look(folder, overrides=None, instruments=()):
             f"--resume {folder.path}: the checkpoint is of an earlier mpslab and does not hold the "
             "case that it belongs to; must be one that does: run the case anew"
         )
-    _check_outside(folder.path, json.loads(state.get("outside", "{}")), instruments)
+    parts = _own(folder.path, state, given)
     files = inputs.from_text(state["inputs"])
     inputs.check(files, folder.path)
     case = load_case(folder.case, overrides)
@@ -86,24 +84,21 @@ def look(folder, overrides=None, instruments=()):
             f"--resume {folder.path}: time.end = {case.time.end:g} s: must be > "
             f"{state['time']:g} s, the time that the run has reached"
         )
-    return Restart(case, state, files, changes)
+    return Restart(case, state, files, parts, changes)
 
 
-def _check_outside(path, had, instruments):
-    """Raise CaseError unless the models and instruments of the user are there again."""
-    for family, name in had.get("models", []):
-        if not plugins.has(family, name):
-            raise CaseError(
-                f"--resume {path}: {plugins.KEYS[family]} = {shown(name)} is a model from outside "
-                f"of mpslab: must be given again, mpslab.add_model({shown(family)}, "
-                f"{shown(name)}, ...), before the run goes on"
-            )
-    names, given = had.get("instruments", []), sorted(one.name for one in instruments)
-    if names != given:
-        raise CaseError(
-            f"--resume {path}: instruments = {shown(given)}: must be those that the run began "
-            f"with, {shown(names)}, as Simulation.resume(folder, instruments=[...]) takes them"
+def _own(path, state, given):
+    """The user's own parts, as given or found."""
+    earlier = json.loads(state["outside"]) | json.loads(state["own"]) if "outside" in state else {}
+    if any(earlier.values()):
+        raise ValueError(
+            f"--resume {path}: the checkpoint is of an earlier mpslab, and the run has parts of "
+            "the user's own, which this one keeps in another way: run the case anew"
         )
+    try:
+        return own.again(state["own"], given)
+    except CaseError as error:
+        raise CaseError(f"--resume {path}: {error}") from error
 
 
 def differences(old, new):

@@ -1,5 +1,6 @@
 """What a run works on from step to step: the particles, and the models that a case names."""
 
+import json
 from dataclasses import dataclass, field
 from types import ModuleType
 
@@ -89,6 +90,24 @@ class Flow:
     def unknowns(self):
         """Mask of the particles whose pressure is an unknown of the equation, (n,) bool."""
         return self.particles.fluid if self.extrapolates else self.particles.carries_pressure
+
+    def state(self):
+        """What a checkpoint keeps beside the particles: names to numbers and strings.
+
+        All ranks call it, and get the same.
+        """
+        return {
+            "time": self.time,
+            "compression": max(self.domain.from_all(self.compression)),
+            "readings": json.dumps(self.readings),
+            **self.solids.state(),
+        }
+
+    def restore(self, state):
+        """Take back what `state` gave."""
+        self.time, self.compression = state["time"], state.get("compression", 0.0)
+        self.readings.update(json.loads(state["readings"]))
+        self.solids.restore(state)
 
 
 def make_flow(case, particles, solids, width, forcings=(), comm=None):
