@@ -1,9 +1,7 @@
 """What users add from outside of the package: instruments, models, and actions."""
 
 import json
-import re
 import sys
-from pathlib import Path
 from types import SimpleNamespace
 
 import h5py
@@ -55,19 +53,6 @@ def added(monkeypatch):
 def one_line(caught, *parts):
     text = str(caught.value)
     assert "\n" not in text and all(part in text for part in parts), text
-
-
-def test_examples_of_the_page_run(tmp_path, monkeypatch, capsys, added):
-    page = (Path(__file__).parent.parent / "docs/python.md").read_text()
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.syspath_prepend(str(tmp_path))
-    blocks, names = re.findall(r"```python\n(.*?)```", page, re.S), {"__name__": "page"}
-    assert len(blocks) >= 5
-    for block in blocks:
-        exec(compile(block, "docs/python.md", "exec"), names)
-    said = capsys.readouterr().out
-    assert "the run began with 'front', and no module holds it by a name" in said
-    assert mpslab.open_run("plain").outcome == "finished"
 
 
 def test_own_instrument_has_a_table_and_goes_on_to_the_byte(tmp_path):
