@@ -5,6 +5,7 @@ from math import ceil
 
 from mpslab.core import timestep
 from mpslab.core.parameters import Case
+from mpslab.forcings.frame import strongest
 
 
 def complete(case: Case) -> Case:
@@ -15,13 +16,13 @@ def complete(case: Case) -> Case:
     every y is 0.
     """
     tank = _tank(case.tank)
+    frame = replace(case.frame, center=case.frame.center or (0.5 * tank.length, 0.0))
+    case = replace(case, tank=tank, frame=frame)
     return replace(
         case,
-        tank=tank,
         water=_boxes(case.water, tank),
         obstacle=_named("obstacle", _boxes(case.obstacle, tank)),
         gate=_named("gate", case.gate),
-        frame=replace(case.frame, center=case.frame.center or (0.5 * tank.length, 0.0)),
         particles=replace(case.particles, layers=case.particles.layers or least_layers(case)),
         time=_time(case),
         output=_output(case),
@@ -43,7 +44,7 @@ def _tank(tank):
 
 def _time(case):
     time = case.time
-    maximum = time.maximum or timestep.largest(case)
+    maximum = time.maximum or timestep.largest(case, strongest(case))
     return replace(
         time,
         courant=time.courant or timestep.COURANT[case.scheme.projection],

@@ -7,6 +7,7 @@ from mpslab.cases.contents import ROUNDING
 from mpslab.core import timestep
 from mpslab.core.keys import shown
 from mpslab.core.parameters import Case
+from mpslab.forcings.frame import strongest
 
 NARROW = 4.0  # spacings: the particles do not resolve what is narrower in the bed
 # Times that the step may be shorter for viscosity than without: more, and the viscosity may be one
@@ -66,7 +67,7 @@ def _uneven_width(case):
 
 
 def _long_step(case):
-    limit = timestep.largest(case)
+    limit = timestep.largest(case, strongest(case))
     if limit == 0.0 or case.time.maximum <= limit * (1.0 + ROUNDING):
         return ""
     return (

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from mpslab.core import timestep
 from mpslab.core.keys import require
 from mpslab.core.parameters import Case
+from mpslab.forcings.frame import strongest
 
 MOST_STEPS = 1e8
 MOST_FRAMES = 1e6
@@ -57,7 +58,7 @@ def _step(case):
     """Time step expected [s], and the name of its limit."""
     top = max([box.end[2] for box in case.water], default=case.tank.depth)
     lowest = min(z for _, z in case.tank.bed)
-    fall = math.sqrt(case.fluid.gravity) * math.sqrt(top - lowest)
+    fall = math.sqrt(strongest(case)) * math.sqrt(top - lowest)
     speed = max([fall, timestep.initial_speed(case), *(gate.speed for gate in case.gate)])
     found = timestep.limits(case, math.inf, speed)
     name = min(found, key=found.get)

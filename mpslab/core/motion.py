@@ -4,12 +4,15 @@ A motion is a function (t [s]) -> (3,) float64: displacement along x and z [m] a
 an axis across the tank. A positive angle turns x towards z: it lifts what lies onshore of the axis.
 An attribute ``center``, (x, z) [m], says where the axis is at t = 0; without it, it is at the
 origin. `Sine` and `Table` also give velocity and acceleration, with derivative = 1 and 2: by
-formula, not by differences.
+formula, not by differences; and `moments(end)`, the times until `end` [s] to look at for what is
+largest in the motion.
 """
 
 import numpy as np
 
 from mpslab.later import scipy
+
+SAMPLES = 1001  # of a sine
 
 
 def displacement(motion, points, start, end):
@@ -71,6 +74,10 @@ class Sine:
         out[self.axis] = self.amplitude * product
         return out
 
+    def moments(self, end):
+        """The time of fading in and one period; nothing new comes later."""
+        return np.linspace(0.0, min(end, self.start + 2.0 * np.pi / self.frequency), SAMPLES)
+
     def _fade(self, time):
         """The factor that fades the motion in, and its two derivatives."""
         if time >= self.start:
@@ -97,3 +104,7 @@ class Table:
         if derivative and not self.first <= time <= self.last:
             return np.zeros(3)
         return self.curve(min(max(time, self.first), self.last), derivative)
+
+    def moments(self, end):
+        """The times of the rows: between them acceleration is linear."""
+        return np.append(0.0, np.clip(self.curve.x, 0.0, end))

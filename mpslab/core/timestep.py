@@ -48,13 +48,19 @@ def choose(case, previous, max_speed, compression=0.0):
     return float(found[name]), name
 
 
-def largest(case):
+def largest(case, gravity):
     """Largest time step where none is given [s]; 0 where nothing moves.
 
     0.2 d0 / sqrt(g h) with the largest depth h, without gravity 0.2 d0 / speed at the start; half
     of it where the pressure acts at predicted positions, which damps waves by the step.
+
+    Parameters
+    ----------
+    case : mpslab.core.parameters.Case
+    gravity : float [m/s2]
+        The strongest that acts on the water: that of the case and the inertia in a moving tank.
     """
-    speed, spacing = wave_speed(case), case.particles.spacing
+    speed, spacing = wave_speed(case, gravity), case.particles.spacing
     if speed == 0.0:
         return 0.0
     return LARGEST[case.scheme.projection] * spacing / speed
@@ -66,13 +72,13 @@ def pace(case):
     A fifth of that in which a wave goes one spacing, 0.2 d0 / sqrt(g h); the largest step where
     nothing moves and nothing weighs.
     """
-    speed = wave_speed(case)
+    speed = wave_speed(case, case.fluid.gravity)
     return PACE * case.particles.spacing / speed if speed > 0.0 else case.time.maximum
 
 
-def wave_speed(case):
+def wave_speed(case, gravity):
     """sqrt(g h) with the largest depth; without gravity the largest speed at the start [m/s]."""
-    return sqrt(case.fluid.gravity) * sqrt(case.tank.deepest) or initial_speed(case)
+    return sqrt(gravity) * sqrt(case.tank.deepest) or initial_speed(case)
 
 
 def initial_speed(case):

@@ -11,10 +11,11 @@ share.  Gravity itself is a forcing of its own; here stands what differs from it
 """
 
 import csv
+from pathlib import Path
 
 import numpy as np
 
-from mpslab.core.keys import CaseError
+from mpslab.core.keys import CaseError, require
 from mpslab.core.motion import Sine, Table
 
 AXES = {"sway": 0, "heave": 1, "roll": 2}
@@ -43,16 +44,37 @@ def make(case):
     return inertia
 
 
+def strongest(case):
+    """Largest acceleration of water at rest in the tank, by gravity and the tank's motion [m/s2].
+
+    Of the corners of the water as it is laid out, until the end of the run.
+    """
+    gravity, inertia = case.fluid.gravity, make(case)
+    if inertia is None:
+        return gravity
+    low = min(z for _, z in case.tank.bed)
+    high = max([box.end[2] for box in case.water], default=case.tank.depth)
+    corners = np.array([[x, 0.0, z] for x in (0.0, case.tank.length) for z in (low, high)])
+    pull, still = np.array([0.0, 0.0, -gravity]), np.zeros_like(corners)
+    times = motion_of(case.frame).moments(case.time.end)
+    return max(np.linalg.norm(inertia(corners, still, t) + pull, axis=1).max() for t in times)
+
+
 def motion_of(frame):
     """Motion of the tank that a table [frame] asks for.
 
     Raises
     ------
     CaseError
-        If the file cannot be read, or is no such table.
+        If amplitude or period is 0, or the file cannot be read, or is no such table.
     """
     if frame.type == "file":
+        exists = bool(frame.file) and Path(frame.file).is_file()
+        require(exists, "frame.file", frame.file, "a CSV file that exists")
         return Table(*_read(frame.file), frame.center)
+    rule = f"> 0 for frame.type = {frame.type!r}"
+    require(frame.amplitude > 0.0, "frame.amplitude", frame.amplitude, rule)
+    require(frame.period > 0.0, "frame.period", frame.period, rule)
     amplitude = np.radians(frame.amplitude) if frame.type == "roll" else frame.amplitude
     return Sine(AXES[frame.type], amplitude, frame.period, frame.start, frame.center)
 

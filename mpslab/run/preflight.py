@@ -14,6 +14,7 @@ from mpslab.core.kinds import KIND_NAMES
 from mpslab.core.lattice import effective_length, rows_across
 from mpslab.parallel import balance
 from mpslab.run.flow import slabs_of, solver_of
+from mpslab.run.preflight_frame import tank_motion
 from mpslab.run.preflight_text import sections
 from mpslab.solids import filling, gates, obstacles
 from mpslab.solids.census import census
@@ -60,6 +61,10 @@ class Preflight:
           solitary one "celerity [m/s]"; on a beach its "slope" and what becomes of the wave there:
           "surf_similarity", "breaker_type", "breaking_depth [m]", "breaking_height [m]",
           "breaking_in_range", "runup [m]", or of a solitary wave "breaks";
+        - "tank_motion", of a tank that moves: "type", how far it goes, "sway [m]", "heave [m]" and
+          "roll [deg]", "period [s]" of a sine, "largest_acceleration [m/s2]" of a place where its
+          water stands; where nothing else stands in it, "natural_period [s]" of the water and, by
+          linear theory, its "rise [m]" at the walls, with the "room [m]" above it;
         - "warnings": what the run may suffer from, a line each.
     """
 
@@ -109,6 +114,8 @@ def preflight(case):
     if paddle:
         notes += [*paddle.doubts, *_hardly_moves(case, paddle), *_unresolved(case, paddle)]
         found["wavemaker"] = _wavemaker(case, paddle)
+    if case.frame.type != "none":
+        found["tank_motion"] = tank_motion(case, notes)
     kind = case.wavemaker.type
     if paddle and paddle.stroke > 0.0 and paddle.height > 0.0:
         if kind in (*REGULAR, *SEAS):

@@ -26,6 +26,8 @@ def sections(found):
     maker = found.get("wavemaker", {"stroke [m]": 0.0})
     if maker["stroke [m]"] > 0.0:
         told["Wavemaker"] = [*_wavemaker(maker)]
+    if "tank_motion" in found:
+        told["Motion of the tank"] = [*_tank_motion(found["tank_motion"])]
     if "wave" in found:
         told["Wave"] = [*_wave(found["wave"], found["spacing [m]"])]
     return told
@@ -92,6 +94,23 @@ def _wavemaker(maker):
     if "top_speed [m/s]" in maker:
         yield "top speed", f"{maker['top_speed [m/s]']:.3g} m/s"
         yield "largest acceleration", f"{maker['largest_acceleration [m/s2]']:.3g} m/s2"
+
+
+def _tank_motion(tank):
+    yield "type", tank["type"]
+    for name in ("sway", "heave"):
+        if f"{name} [m]" in tank:
+            yield name, f"up to {_mm(tank[f'{name} [m]'])}"
+    if "roll [deg]" in tank:
+        yield "roll", f"up to {tank['roll [deg]']:.3g} degrees"
+    if "period [s]" in tank:
+        yield "period", f"{tank['period [s]']:.4g} s"
+    yield "largest acceleration", f"{tank['largest_acceleration [m/s2]']:.3g} m/s2"
+    if "natural_period [s]" in tank:
+        yield "natural period of the water", f"{tank['natural_period [s]']:.4g} s"
+    if "rise [m]" in tank:
+        rise, room = _mm(tank["rise [m]"]), _mm(tank["room [m]"])
+        yield "rise at the walls", f"{rise} by linear theory, without damping; room for {room}"
 
 
 def _sea(maker):

@@ -107,9 +107,10 @@ def _capped(move, spacing):
 
 
 def _displace(flow, move):
-    particles, fluid = flow.particles, flow.case.fluid
+    particles = flow.particles
     particles.position += move
-    particles.pressure -= fluid.density * fluid.gravity * move[:, 2]
+    weight = flow.case.fluid.density * step.force_on(flow, 0.0)
+    particles.pressure += (weight * move).sum(axis=1)
     if flow.stencil.width > 0.0:
         particles.position[:, 1] %= flow.stencil.width
 
