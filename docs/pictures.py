@@ -11,13 +11,12 @@ from pathlib import Path
 import matplotlib
 
 from mpslab import open_run
-from mpslab.analysis.pictures import STYLE
+from mpslab.analysis.pictures import STYLE, save_small
 from mpslab.analysis.snapshots import draw_breaker, draw_tank
 
 DOCS = Path(__file__).parent
 RUNS = DOCS.parent / "runs" / "docs"
 LARGEST = 300_000  # bytes
-DPI = range(120, 60, -5)
 
 # The paper's height. Times are those at which the waves break, and some between.
 PAPER = {"wavemaker.height": 0.0196, "particles.spacing": 0.002, "output.interval": 0.0125}
@@ -58,15 +57,6 @@ def run(name):
     return folder
 
 
-def save(figure, path):
-    """Write a figure as PNG, at the highest resolution at which the file is small enough."""
-    for dpi in DPI:
-        figure.savefig(path, dpi=dpi, pil_kwargs={"optimize": True}, metadata={"Software": None})
-        if path.stat().st_size <= LARGEST:
-            return
-    raise SystemExit(f"{path}: more than {LARGEST} bytes at {dpi} dots an inch")
-
-
 def main(names):
     """Make the pictures of these names, or all."""
     unknown = set(names) - set(PICTURES)
@@ -79,7 +69,7 @@ def main(names):
             figure = draw(found.frames, found.tables)
             if figure is None:
                 raise SystemExit(f"{name}: no wave breaks in {found.folder}")
-            save(figure, DOCS / f"{name}.png")
+            save_small(figure, DOCS / f"{name}.png", LARGEST)
         print(DOCS / f"{name}.png")
 
 

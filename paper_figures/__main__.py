@@ -7,7 +7,7 @@ from pathlib import Path
 
 import matplotlib
 
-from mpslab.analysis.pictures import STYLE
+from mpslab.analysis.pictures import STYLE, save_small
 from paper_figures import agreement, kept, runs
 from paper_figures.keep import keep
 
@@ -15,7 +15,6 @@ DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 FIGURES = ("fig_1", "fig_2", "fig_3", "fig_4", "fig_5", "table_1")
 HERE = Path(__file__).parent
 LARGEST = 400_000  # bytes of a picture
-DPI = range(160, 60, -10)
 
 
 def _parser():
@@ -109,18 +108,10 @@ def _draw(figures, found, out):
             continue
         with matplotlib.rc_context(STYLE):
             figure = importlib.import_module(f"paper_figures.{name}").draw(found)
-            print(_save(figure, out / f"{name}.png"))
+            save_small(figure, out / f"{name}.png", LARGEST)
+        print(out / f"{name}.png")
     print(agreement.write(found, out))
     return status
-
-
-def _save(figure, path):
-    """Write a figure at the highest resolution at which its file is small enough."""
-    for dpi in DPI:
-        figure.savefig(path, dpi=dpi, pil_kwargs={"optimize": True}, metadata={"Software": None})
-        if path.stat().st_size <= LARGEST:
-            break
-    return path
 
 
 if __name__ == "__main__":

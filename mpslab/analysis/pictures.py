@@ -23,6 +23,7 @@ STYLE = {
     "savefig.bbox": "tight",
 }
 NAMES = ("tank", "pressure", "breaker", "gauges", "probes", "energy", "solver")
+RESOLUTIONS = range(160, 60, -10)  # of pictures in documents, dots an inch
 MEDIAN = 3  # readings whose median a reading is held against
 OUTLYING = 0.2  # times the range of those medians: a reading farther out is off the scale
 
@@ -60,6 +61,28 @@ def draw_run(folder):
     for path in {target / f"{name}.png" for name in NAMES} - set(drawn):
         path.unlink(missing_ok=True)
     return drawn
+
+
+def save_small(figure, path, most):
+    """Write a PNG for a document at the highest resolution at which it is small enough.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    path : Path
+    most : int
+        Bytes that it may have.
+
+    Raises
+    ------
+    ValueError
+        If it has more at the lowest resolution, at which it is left there.
+    """
+    for dpi in RESOLUTIONS:
+        figure.savefig(path, dpi=dpi, pil_kwargs={"optimize": True}, metadata={"Software": None})
+        if path.stat().st_size <= most:
+            return
+    raise ValueError(f"{path}: more than {most} bytes at {dpi} dots an inch")
 
 
 def listed(drawn):
