@@ -96,9 +96,9 @@ def time_messages(slabs, rows, repeats):
     sums = np.zeros(slabs)
     exchange = []
     for count in rows:
-        first = np.arange(slabs + 1) * count
+        halo = domain.halo(np.arange(slabs + 1) * count)
         x = np.zeros(slabs * count)
-        exchange.append(_median(lambda x=x, f=first: domain.refresh_rows(x, f), repeats))
+        exchange.append(_median(lambda x=x, halo=halo: domain.exchange(halo, x), repeats))
     return {"sum": _median(lambda: domain.add(sums), repeats), "exchange": exchange}
 
 

@@ -30,7 +30,7 @@ def system():
 
 def test_rows_of_a_group_are_in_one_slab_and_one_cell(system):
     made = Deflation(system, TOLERANCE)
-    slab = np.repeat(np.arange(len(system.first) - 1), np.diff(system.first))
+    slab = system.blocks.of_rows
     places = {(s, *c) for s, c in zip(slab.tolist(), system.cell.tolist(), strict=True)}
     for g in range(made.count):
         inside = made.group == g
@@ -115,6 +115,22 @@ def test_nested_deflation_needs_as_many_iterations(nested, system):
     assert reports[1].converged
     assert abs(reports[1].iterations - reports[0].iterations) <= 1
     np.testing.assert_allclose(found[1], found[0], atol=1e-6 * np.abs(found[0]).max())
+
+
+@pytest.mark.parametrize("tolerance, converged", [(TOLERANCE, False), (0.9, True)])
+def test_a_coarse_solve_that_does_not_converge_is_reported(
+    nested, system, monkeypatch, tolerance, converged
+):
+    """The residual is then that of x itself, which has a smooth part that CG does not see."""
+    monkeypatch.setattr(deflation, "MOST", 1)
+    x = np.zeros(len(system))
+    report = conjugate_gradient(
+        system, x, by_diagonal(system), tolerance, 500, deflation=nested[1]
+    )
+    left = np.linalg.norm(system.right - as_matrix(system) @ x) / np.linalg.norm(system.right)
+    assert report.coarse > nested[1].coarse.tolerance
+    assert report.residual == pytest.approx(left, rel=1e-6)
+    assert report.converged == (left <= tolerance) == converged
 
 
 def test_neighbours_around_a_periodic_tank_are_near_in_the_band():

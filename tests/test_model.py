@@ -61,7 +61,7 @@ def test_the_tank_has_the_groups_of_a_step(monkeypatch):
     tank = model.make_tank(SPACING)
     Simulation(load_case("plunging_breaker", LATTICE)).advance()
     (real,) = made
-    first = real.system.first
+    first = real.system.blocks.first
     groups = [len(set(real.group[a:b].tolist())) for a, b in pairwise(first.tolist())]
     assert tank.groups.tolist() == groups
     assert max(groups) == 6
@@ -112,7 +112,7 @@ def test_messages_are_those_of_a_step(monkeypatch):
     """As far as one rank goes through them: it sends no particles, three times in a step."""
     small = {**LATTICE, "tank.width": 0.0, "particles.spacing": 0.006}
     run = Simulation(load_case("plunging_breaker", small))
-    sums, told, arrays, rows = [], [], [], []
+    sums, told, arrays = [], [], []
 
     def count(name, note):
         method = getattr(Domain, name)
@@ -125,8 +125,7 @@ def test_messages_are_those_of_a_step(monkeypatch):
 
     count("collect", lambda given: sums.append(given[0].shape))
     count("from_all", told.extend)
-    count("refresh", arrays.extend)
-    count("refresh_rows", rows.append)
+    count("exchange", lambda given: arrays.extend(given[1:]))
     run.advance()
     iterations, slabs = run.last_row["iterations"], run.domain.slabs.count
     assert len(sums) + 2 * len(told) + 2 * 3 == model.SUMS * iterations + model.STEP_SUMS
@@ -137,7 +136,7 @@ def test_messages_are_those_of_a_step(monkeypatch):
     by_slab = sum(map(np.prod, sums)) - np.prod(band) - groups * solves
     told_apart = len(sums) - model.SUMS * iterations - model.STEP_SOLVES - 1
     assert by_slab == slabs * (model.DOTS * iterations + told_apart + 2)
-    assert len(rows) + len(arrays) == model.EXCHANGES * iterations + model.STEP_EXCHANGES
+    assert len(arrays) == model.EXCHANGES * iterations + model.STEP_EXCHANGES
 
 
 def test_sums_take_their_latency_and_their_bytes_in_each_round(tank):

@@ -55,14 +55,14 @@ def test_rows_of_a_slab_follow_one_another_in_the_order_of_the_particles():
     (system, rows), (_, others) = system_by_slab(), system_by_slab(by_slab=False)
     assert list(rows) == list(others)
     assert np.all(np.diff(rows) > 0)
-    assert len(system.first) == 6
-    slab, row = np.repeat(np.arange(5), np.diff(system.first)), np.diff(system.row)
+    assert len(system.blocks) == 5
+    slab, row = system.blocks.of_rows, np.diff(system.row)
     assert np.abs(slab.repeat(row) - slab[system.column]).max() == 1
 
 
 def red_black(system):
     """Rows in the order of the elimination."""
-    slab = np.repeat(np.arange(len(system.first) - 1), np.diff(system.first))
+    slab = system.blocks.of_rows
     return np.lexsort((np.arange(len(system)), slab, slab % 2))
 
 

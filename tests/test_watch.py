@@ -68,6 +68,8 @@ def test_unconverged_pressure_stops_the_run_and_names_the_fastest_particle(flow)
     assert "residual 0.034 after 2000 iterations" in message
     assert "scheme.tolerance = 1e-05" in message
     assert_names_step_time_and_place(message, flow, row)
+    message = failure(flow, SolverReport(2000, 3.4e-2, False, coarse=0.2))
+    assert "did not converge, nor did its coarse system (residual 0.2): residual 0.034" in message
 
 
 def test_unconverged_pressure_that_is_not_a_number_stops_the_run(flow):

@@ -182,17 +182,20 @@ class Domain:
         """Which particles are owned, which are ghosts here, and which on a neighbouring rank."""
         self.slab = slab
         first = np.searchsorted(slab, np.arange(self.slabs.count + 1)).tolist()
-
-        def between(begin, end):
-            return slice(first[max(begin, 0)], first[min(end, self.slabs.count)])
-
-        self.owned = between(self.begin, self.end)
+        self.owned = slice(first[self.begin], first[self.end])
         self.ghosts = len(slab) - (self.owned.stop - self.owned.start)
-        self._halo = []
+        self._halo = self.halo(first)
+
+    def halo(self, first):
+        """What to exchange of rows that lie slab by slab, first[s] the first of slab s.
+
+        A list of (rank, rows that are ghosts there, rows that are its ghosts here), two slices.
+        """
+        found = []
         for r in self._beside():
-            left, right = self.ghosts_of(r)
-            give = between(left, left + 1) if r > self.rank else between(right, right + 1)
-            self._halo.append((r, give, between(self.cuts[r], self.cuts[r + 1])))
+            give, take = (self.begin, self.begin - 1) if r < self.rank else (self.end - 1, self.end)
+            found.append((r, *(slice(first[s], first[s + 1]) for s in (give, take))))
+        return found
 
     def _seen_by(self, rank, slab):
         """Whether a rank sees the particles in these slabs as ghosts, if it does not own them."""
@@ -237,27 +240,18 @@ class Domain:
 
     def refresh(self, *arrays):
         """Give the ghosts' rows of (n, ...) arrays the values of their owners, in place."""
+        self.exchange(self._halo, *arrays)
+
+    def exchange(self, halo, *arrays):
+        """As `refresh` for arrays of other rows, whose `halo` this is."""
         if self.size == 1:
             return
         with self.stopwatch.kind(COMMUNICATION):
             requests = []
-            for r, give, take in self._halo:
+            for r, give, take in halo:
                 for a in arrays:
                     requests.append(self.comm.Irecv(a[take], r))
                     requests.append(self.comm.Isend(a[give], r))
-            self._wait(requests)
-
-    def refresh_rows(self, x, first):
-        """As `refresh` for the rows of the pressure equation; first[s] is the first of slab s."""
-        if self.size == 1:
-            return
-        with self.stopwatch.kind(COMMUNICATION):
-            requests = []
-            for r in self._beside():
-                left = r < self.rank
-                mine, theirs = (self.begin, self.begin - 1) if left else (self.end - 1, self.end)
-                requests.append(self.comm.Irecv(x[first[theirs] : first[theirs + 1]], r))
-                requests.append(self.comm.Isend(x[first[mine] : first[mine + 1]], r))
             self._wait(requests)
 
     def _wait(self, requests):

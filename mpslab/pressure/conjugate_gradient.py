@@ -28,9 +28,10 @@ def conjugate_gradient(
     deflation : mpslab.pressure.deflation.Deflation, optional
         Takes the smooth part out of the residual; x gets it at the end.
     """
+    dots = system.blocks.dots
     q, z, p = np.zeros_like(x), np.empty_like(x), np.zeros_like(x)
     r = system.right - system.multiply(x, q)
-    b_norm, residual = map(math.sqrt, system.dots((system.right, system.right), (r, r)))
+    b_norm, residual = map(math.sqrt, dots((system.right, system.right), (r, r)))
     if b_norm == 0.0:
         x[:] = 0.0
         return SolverReport(0, 0.0, True, replaced)
@@ -39,12 +40,12 @@ def conjugate_gradient(
         deflation.project(r)
     iterations, beta = 0, 0.0
     precondition(r, z)
-    rho, square = system.dots((r, z), (r, r))
+    rho, square = dots((r, z), (r, r))
     residual = math.sqrt(square) / b_norm
     while residual > tolerance and iterations < max_iterations:
         xpay(z, beta, p)
         system.multiply(p, q)
-        curvature = deflation.project_product(p, q) if deflate else system.dot(p, q)
+        curvature = deflation.project_product(p, q) if deflate else dots((p, q))[0]
         if rho == 0.0 or curvature == 0.0:
             break  # no direction is left to go: the run stops, for it did not converge
         alpha = rho / curvature
@@ -53,11 +54,16 @@ def conjugate_gradient(
         iterations += 1
         precondition(r, z)  # once more than needed at the end, so that both dots meet at once
         rho_old = rho
-        rho, square = system.dots((r, z), (r, r))
+        rho, square = dots((r, z), (r, r))
         beta, residual = rho / rho_old, math.sqrt(square) / b_norm
+    missed = 0.0
     if deflate:
         deflation.complete(x, system.right - system.multiply(x, q))
-    return SolverReport(iterations, residual, residual <= tolerance, replaced)
+        missed = deflation.missed
+    if missed > 0.0:  # the residual of x has a smooth part that r has not
+        r = system.right - system.multiply(x, q)
+        residual = math.sqrt(dots((r, r))[0]) / b_norm
+    return SolverReport(iterations, residual, residual <= tolerance, replaced, missed)
 
 
 def by_diagonal(system):

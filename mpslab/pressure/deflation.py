@@ -52,7 +52,7 @@ class Deflation:
         self.group, self.groups = group_rows(system, merged)
         rows, half = self._couplings(system)
         budget = WORK * rows if budget is None else budget
-        if self.count * half**2 <= budget or self.count < len(system.first):
+        if self.count * half**2 <= budget or self.count <= len(system.blocks):
             self.coarse = Band(self, half)
         else:
             self.coarse = Nested(self, max(SHARPER * tolerance, FINEST), budget)
@@ -62,24 +62,31 @@ class Deflation:
         """Groups on all ranks."""
         return len(self.groups)
 
+    @property
+    def missed(self):
+        """Largest residual that a solve of the coarse system was left with, of those that did not
+        converge; 0 if all did.
+        """
+        return self.coarse.missed
+
     def _couplings(self, system):
         """A Z; returns the rows of all ranks, and half the width of the band of Z^T A Z."""
         most = len(system) + len(system.value)
         self.start = np.zeros(len(system) + 1, np.int32)
         member, entry = np.empty(most, np.int32), np.empty(most)
-        begin, end = system.own
+        begin, end = system.blocks.own
         used, half = coarse.by_group(
             system.row, system.column, system.value, system.diagonal, self.group, begin, end,
             np.full(self.count, -1, np.int32), self.start, member, entry,
         )  # fmt: skip
         self.member, self.entry = member[:used], entry[:used]
-        rows, halves = zip(*system.from_all((end - begin, half)), strict=True)
+        rows, halves = zip(*system.blocks.from_all((end - begin, half)), strict=True)
         return sum(rows), max(halves)
 
     def _sums(self, r):
         """Z^T r of this rank's rows, (groups,)."""
         sums = np.zeros(self.count)
-        coarse.gather(self.group, r, *self.system.own, sums)
+        coarse.gather(self.group, r, *self.system.blocks.own, sums)
         return sums
 
     def project(self, r):
@@ -91,14 +98,14 @@ class Deflation:
 
         p . A Z y is (Z^T q) . y.
         """
-        by_slab = np.zeros(len(self.system.first) - 1)
-        self.system.slab_dots(p, q, by_slab)
-        y, product = self.coarse.solve_and_dot(self._sums(q), by_slab)
+        by_block = np.zeros(len(self.system.blocks))
+        self.system.blocks.block_dots(p, q, by_block)
+        y, product = self.coarse.solve_and_dot(self._sums(q), by_block)
         self._take_off(y, q)
         return product
 
     def _take_off(self, y, q):
-        coarse.take_off(self.start, self.member, self.entry, y, *self.system.own, q)
+        coarse.take_off(self.start, self.member, self.entry, y, *self.system.blocks.own, q)
 
     def complete(self, x, r):
         """x = x + Z (Z^T A Z)^-1 Z^T r, in place: the smooth part for the residual r of x."""
@@ -108,25 +115,27 @@ class Deflation:
 class Band:
     """Z^T A Z as a band, which every rank factors; half of it is as wide as `half` groups."""
 
+    missed = 0.0
+
     def __init__(self, deflation, half):
         self.system = system = deflation.system
         self.band, self.inverse = np.zeros((deflation.count, half + 1)), np.empty(deflation.count)
         coarse.couple(
-            deflation.start, deflation.member, deflation.entry, deflation.group, *system.own,
+            deflation.start, deflation.member, deflation.entry, deflation.group, *system.blocks.own,
             self.band,
         )  # fmt: skip
-        self.band = system.collect(self.band)
+        self.band = system.blocks.collect(self.band)
         coarse.factorise(self.band, self.inverse)
 
     def solve(self, sums):
         """(Z^T A Z)^-1 of the sums that the ranks have, a value for each group."""
-        y = self.system.collect(sums).copy()
+        y = self.system.blocks.collect(sums).copy()
         coarse.substitute(self.band, self.inverse, y)
         return y
 
-    def solve_and_dot(self, sums, by_slab):
-        """`solve`, and the sum of by_slab less sums . y; ranks meet but once for both."""
-        both = self.system.collect(np.concatenate([sums, by_slab]))
+    def solve_and_dot(self, sums, by_block):
+        """`solve`, and the sum of by_block less sums . y; ranks meet but once for both."""
+        both = self.system.blocks.collect(np.concatenate([sums, by_block]))
         sums, y = both[: len(sums)], both[: len(sums)].copy()
         coarse.substitute(self.band, self.inverse, y)
         return y, sum(both[len(sums) :].tolist()) - sparse.dot(sums, y)
@@ -136,10 +145,10 @@ class Nested:
     """Z^T A Z as a system shared out among the ranks as its rows are, slab by slab."""
 
     def __init__(self, deflation, tolerance, budget):
-        self.tolerance = tolerance
-        above, count = deflation.system, deflation.count
-        first = np.searchsorted(deflation.groups // SIDE**2, np.arange(len(above.first)))
-        begin, end = int(first[above.begin]), int(first[above.end])
+        self.tolerance, self.missed = tolerance, 0.0
+        above, count = deflation.system.blocks, deflation.count
+        slab = deflation.groups // SIDE**2
+        blocks = above.of_other_rows(np.searchsorted(slab, np.arange(len(above) + 1)))
         own = slice(*above.own)
         rows = np.argsort(deflation.group[own], kind="stable") + own.start
         size = np.bincount(deflation.group[own], minlength=count)
@@ -148,15 +157,15 @@ class Nested:
         value = np.empty(len(deflation.member))
         entries = coarse.condense(
             deflation.start, deflation.member, deflation.entry, rows.astype(np.int32),
-            np.concatenate([[0], np.cumsum(size)]).astype(np.int32), begin, end,
+            np.concatenate([[0], np.cumsum(size)]).astype(np.int32), *blocks.own,
             np.full(count, -1, np.int32), row, column, value, diagonal,
         )  # fmt: skip
         cell = np.column_stack([deflation.groups // SIDE % SIDE, deflation.groups % SIDE])
         self.system = PressureSystem(
             row, column[:entries], value[:entries], diagonal, np.zeros(count),
-            first.astype(np.int32), above.domain, (cell - SIDE // 2).astype(np.int32),
+            blocks, (cell - SIDE // 2).astype(np.int32),
         )  # fmt: skip
-        self.system.refresh(diagonal)
+        blocks.refresh(diagonal)
         diagonal[diagonal == 0.0] = 1.0  # of groups that no row here is coupled to
         self.deflation = Deflation(self.system, tolerance, 2, budget)
 
@@ -164,25 +173,26 @@ class Nested:
         """(Z^T A Z)^-1 of the sums of this rank's groups, a value for each it has to do with."""
         system, y = self.system, np.zeros(len(sums))
         system.right = sums
-        conjugate_gradient(
+        report = conjugate_gradient(
             system, y, by_diagonal(system), self.tolerance, MOST, deflation=self.deflation
         )
-        system.refresh(y)
+        if not report.converged:
+            self.missed = max(self.missed, report.residual)
+        system.blocks.refresh(y)
         return y
 
-    def solve_and_dot(self, sums, by_slab):
-        """`solve`, and the sum of by_slab less sums . y."""
-        y, dots = self.solve(sums), np.zeros_like(by_slab)
-        self.system.slab_dots(sums, y, dots)
-        return y, sum(self.system.collect(by_slab - dots).tolist())
+    def solve_and_dot(self, sums, by_block):
+        """`solve`, and the sum of by_block less sums . y."""
+        y, dots = self.solve(sums), np.zeros_like(by_block)
+        self.system.blocks.block_dots(sums, y, dots)
+        return y, sum(self.system.blocks.collect(by_block - dots).tolist())
 
 
 def group_rows(system, merged):
     """Group of each row, (m,) int32, the same numbers on every rank; and the keys of all groups."""
-    slab = np.repeat(np.arange(len(system.first) - 1), np.diff(system.first))
-    key = keys(slab, system.cell, merged)
-    begin, end = system.own
-    groups, number = number_groups(system.from_all(np.unique(key[begin:end])))
+    key = keys(system.blocks.of_rows, system.cell, merged)
+    begin, end = system.blocks.own
+    groups, number = number_groups(system.blocks.from_all(np.unique(key[begin:end])))
     ordered = np.empty_like(groups)
     ordered[number] = groups
     return number[np.searchsorted(groups, key)], ordered

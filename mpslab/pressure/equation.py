@@ -4,6 +4,7 @@ import numpy as np
 
 from mpslab.kernels import poisson
 from mpslab.parallel import slabs
+from mpslab.pressure.blocks import Blocks
 from mpslab.pressure.system import PressureSystem
 
 FAR = 100_000  # cells; farther away all places are in the same one
@@ -30,8 +31,8 @@ def assemble(
     surface_pull : (n,) float64, optional
         Added to the diagonal; with it, surface particles have rows as all others.
     domain : mpslab.parallel.domain.Domain, optional
-        That of the particles; with it, the system knows its slabs. Rows are in the order of the
-        particles, and so slab by slab.
+        That of the particles; with it, the slabs are the system's blocks: rows are in the order of
+        the particles, and so slab by slab.
 
     Returns
     -------
@@ -43,10 +44,10 @@ def assemble(
     unknowns = particles.carries_pressure if unknowns is None else unknowns
     inner = particles.surface == 0 if surface_pull is None else True
     rows = np.flatnonzero(unknowns & inner).astype(np.int32)
-    first = None
+    blocks = None
     if domain:
         slabs_ = np.arange(domain.slabs.count + 1)
-        first = np.searchsorted(domain.slab.take(rows), slabs_).astype(np.int32)
+        blocks = Blocks(np.searchsorted(domain.slab.take(rows), slabs_), domain)
     m, most = len(rows), len(near.other)
     unknown = np.where(unknowns, -1, -2).astype(np.int32)
     unknown[rows] = np.arange(m, dtype=np.int32)
@@ -61,8 +62,8 @@ def assemble(
         diagonal += surface_pull[rows]
         excess += surface_pull[rows]
     cell = cells(near.position.take(rows, 0)[:, 1:3], slabs.WIDTH * stencil.radius)
-    system = PressureSystem(row, column, value, diagonal, source[rows], first, domain, cell)
-    system.refresh(diagonal)
+    system = PressureSystem(row, column, value, diagonal, source[rows], blocks, cell)
+    system.blocks.refresh(diagonal)
     _hold_cut_off_rows(system, excess)
     return system, rows
 
@@ -78,7 +79,7 @@ def _hold_cut_off_rows(system, excess):
     It is doubled; where it is 0, for lack of any neighbour with a pressure, it becomes the largest.
     """
     alone = ~_reached(system, excess > 0.0)
-    diagonal, collect = system.diagonal, system.from_all
+    diagonal, collect = system.diagonal, system.blocks.from_all
     if any(collect(bool(alone.any()))):
         largest = max(collect(float(diagonal.max(initial=0.0)))) or 1.0
         diagonal[alone] = np.where(diagonal[alone] > 0.0, 2.0 * diagonal[alone], largest)
@@ -89,13 +90,13 @@ def _reached(system, tied):
 
     Each rank looks among its own rows and ghosts, until no path leads across a border any more.
     """
-    reached = tied.astype(np.uint8)
-    system.refresh(reached)
+    reached, blocks = tied.astype(np.uint8), system.blocks
+    blocks.refresh(reached)
     while True:
         poisson.reach(system.row, system.column, reached)
         found = reached.copy()
-        system.refresh(reached)
-        if not any(system.from_all(bool(np.any(reached != found)))):
+        blocks.refresh(reached)
+        if not any(blocks.from_all(bool(np.any(reached != found)))):
             return reached.astype(bool)
 
 

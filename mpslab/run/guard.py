@@ -104,8 +104,10 @@ def check_step(flow, report, dt, step):
     check_finite(flow, step)
     when = _when(flow, step)
     if not report.converged:
+        coarse = report.coarse
+        nor = f", nor did its coarse system (residual {coarse:.3g})" if coarse > 0.0 else ""
         raise RunFailed(
-            f"pressure did not converge: residual {report.residual:.3g} after "
+            f"pressure did not converge{nor}: residual {report.residual:.3g} after "
             f"{report.iterations} iterations (scheme.tolerance = "
             f"{flow.case.scheme.tolerance:g}), {when}, {_fastest(flow)}"
         )

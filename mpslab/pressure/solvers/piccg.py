@@ -29,44 +29,42 @@ class Factor:
     def __init__(self, system):
         system.sort_rows()
         m, entries = len(system), len(system.value)
-        self.system = system
+        self.blocks = blocks = system.blocks
         self.lower, self.middle = np.empty(m + 1, np.int32), np.empty(m, np.int32)
         left, factor = np.empty(entries, np.int32), np.empty(entries)
-        slab = np.repeat(
-            np.arange(len(system.first) - 1, dtype=np.int32), np.diff(system.first)
-        )
         used = coloured.split(
-            system.row, system.column, system.value, slab, self.lower, self.middle, left, factor
+            system.row, system.column, system.value, blocks.of_rows, self.lower, self.middle, left,
+            factor,
         )
         self.left, self.factor = left[:used], factor[:used]
         self.pivot = np.empty(m)
         self.replaced = coloured.factorise(
-            system.first, system.begin, system.end, self.lower, self.middle, self.left,
+            blocks.first, blocks.begin, blocks.end, self.lower, self.middle, self.left,
             system.diagonal, self.factor, self.pivot, np.zeros(m),
         )  # fmt: skip
 
     def substitute(self, r, z):
         """z = M^-1 r: forward through red and black, backward through black and red."""
         self._forward(RED, r, z)
-        self.system.refresh(z)
+        self.blocks.refresh(z)
         self._forward(BLACK, r, z)
-        own = slice(*self.system.own)  # the others come with the next refresh
+        own = slice(*self.blocks.own)  # the others come with the next refresh
         z[own] *= self.pivot[own]
         self._backward(BLACK, z)
-        self.system.refresh(z)
+        self.blocks.refresh(z)
         coloured.hand_back(
-            self.system.first, self.lower, self.middle, self.left, self.factor, z
+            self.blocks.first, self.lower, self.middle, self.left, self.factor, z
         )
         self._backward(RED, z)
 
     def _forward(self, colour, r, z):
-        s = self.system
+        b = self.blocks
         coloured.forward(
-            colour, s.first, s.begin, s.end, self.lower, self.left, self.factor, r, z
+            colour, b.first, b.begin, b.end, self.lower, self.left, self.factor, r, z
         )
 
     def _backward(self, colour, z):
-        s = self.system
+        b = self.blocks
         coloured.backward(
-            colour, s.first, s.begin, s.end, self.lower, self.middle, self.left, self.factor, z
+            colour, b.first, b.begin, b.end, self.lower, self.middle, self.left, self.factor, z
         )
