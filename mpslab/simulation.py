@@ -40,13 +40,13 @@ class Simulation:
     instruments : sequence of mpslab.Instrument, optional
         What it reads besides the instruments of the case (docs/python.md).
     forcings, solids : sequence, optional
-        One's own, beside those of the case; `mpslab.forcings` and `mpslab.solids` say what they
-        are. A run that goes on finds them again by the names of module and object.
+        The user's own, beside those of the case; `mpslab.forcings` and `mpslab.solids` say what
+        they are (docs/python.md).
 
     Attributes
     ----------
     particles : ParticleSet
-        The particles as numpy arrays, in SI units; of many ranks, those of this one.
+        The particles as numpy arrays, in SI units; under mpiexec those of this rank.
     time : float [s]
     step : int
         Number of steps done.
@@ -308,7 +308,7 @@ class Simulation:
         self._flow.done["seconds"] = self.domain.from_all(clock.perf_counter() - began)[0]
         with self.stopwatch.phase("record"):
             self._record.read_due(before)
-        # Before the checkpoint, for the rows up to its step have to be there after a kill.
+        # Before the checkpoint: after a kill the rows up to its step have to be there.
         if self.step % self.case.parallel.rebalance_every == 0:
             self._take_stock()
         with self.stopwatch.phase("record"):
@@ -322,7 +322,7 @@ class Simulation:
         return timestep.choose(self.case, self.dt, speed, compression)
 
     def _take_stock(self):
-        """Write down where the time went since the last time and, among ranks, cut anew."""
+        """Write down where the time went since the last call and, on several ranks, cut anew."""
         laps = self.domain.from_all(self.stopwatch.lap())
         self._record.add_phases(self.step, self.time, laps)
         if self.domain.size > 1:

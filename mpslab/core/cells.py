@@ -12,8 +12,8 @@ import numpy as np
 from mpslab.kernels import cells
 
 PER_SLAB = 4  # along x; a power of two, so that a particle's slab follows from its cell exactly
-# In radii.  Cells of a whole radius would put 250 particles before the search of the 37 that are
-# near, cells of half a radius 145; those of a third would put 107, but most of them are empty.
+# In radii.  To find the 37 particles that are near, the search looks at 250 with cells of a whole
+# radius, at 145 with half a radius, and at 107 with a third, where most cells are empty.
 WIDTH = 0.5
 WIDER = 1.0 + 1e-9  # so that rounding never puts neighbours one cell too far apart
 MOST = 2**24
@@ -23,7 +23,8 @@ MOST = 2**24
 class Cells:
     """Equal boxes in rows along z, rows side by side along y, and these along x.
 
-    The outermost cells reach on for ever; around a periodic tank, y begins anew.
+    The outermost cells have no outer end; in a periodic tank the last cell along y lies beside the
+    first.
 
     Attributes
     ----------

@@ -1,6 +1,7 @@
 """Integral measures of the water: energy, volume, speed.
 
-Sums take `total`, which adds (n,) values of the particles: over all ranks it is that of the domain.
+`total` is a function that adds (n,) values of the particles; that of the domain adds those of all
+ranks.
 """
 
 import numpy as np
@@ -21,9 +22,9 @@ def max_speed(particles):
 
 
 def max_speed_together(particles):
-    """Largest speed as of `max_speed`, but for water without a neighbour in the last step [m/s].
+    """As `max_speed`, without the water that had no neighbour in the last step [m/s].
 
-    It tells by the number density, which is zero before the first step.
+    The number density of such water is zero; before the first step that of all water is.
     """
     alone = particles.fluid & (particles.number_density == 0.0)
     return max_speed(particles.take(~alone) if alone.any() else particles)

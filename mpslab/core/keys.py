@@ -22,7 +22,7 @@ def key(doc, default=dataclasses.MISSING, *, kind="", unit="", name="", **limits
     doc : str
         What it is, in one line.
     default : optional
-        Left out, the key is required; None marks a number that is filled in when a case is loaded.
+        Without it the key is required; None marks a number that is filled in when a case is loaded.
     kind : str
         "number", "integer", "flag", "text", "texts", "numbers", "place", "point" or "points"; left
         out, it follows from the type of the default.

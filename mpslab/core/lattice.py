@@ -28,7 +28,7 @@ def between(case, start, end):
 
 
 def ground(case, x, bottom=-np.inf):
-    """Where columns begin, and how far above it the first particle is at the least, (n,) [m] each.
+    """Height where each column begins, and least height of its first particle above it: (n,) [m].
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def ground(case, x, bottom=-np.inf):
 
 
 def stack(case, x, top):
-    """Solid particles of one column, from the bed up, none squeezed in: (n, 2) [m]."""
+    """Solid particles of one column, from the bed up, as many as fit: (n, 2) [m]."""
     spacing = case.particles.spacing
     low, first = ground(case, x)
     first = float(low + first)

@@ -9,10 +9,10 @@ NEVER, LARGEST = 2**31 - 1, 2**25
 
 
 def keep_freed():
-    """Tell the C library not to hand freed memory back to the system; nothing without glibc.
+    """Tell the C library to keep freed memory; without glibc this does nothing.
 
-    A step makes and drops many arrays.  Fetched anew, their pages are filled with zeros by the
-    system first: 4 % of a step in 3-D, 64,000 particles of water.
+    A step makes and drops many arrays.  The system fills pages that are fetched anew with zeros:
+    this takes 4 % of a step in 3-D with 64,000 particles of water.
     """
     try:
         mallopt = ctypes.CDLL(None).mallopt

@@ -44,7 +44,7 @@ def center_of(motion):
 
 
 class Sine:
-    """A sine of one of the three, which may fade in.
+    """A sine along x or z, or of the angle, which may fade in.
 
     Parameters
     ----------

@@ -81,7 +81,7 @@ class Neighbourhood:
         return self
 
     def _make_room(self, pairs, longest):
-        """Memory is kept from step to step: new pages cost more than what is written to them."""
+        """Memory is kept from step to step: to fetch new pages costs more than to write to them."""
         if len(self.inverse) < pairs + LANES:
             room = int(1.2 * pairs) + LANES
             self.offset = np.zeros((room, 4), np.float32)
@@ -90,7 +90,7 @@ class Neighbourhood:
             self._behind = np.empty(2 * longest, np.int32)
 
     def of(self, particles):
-        """The same pairs of particles that differ in other things than their places."""
+        """The same pairs, with particles that have the same places but differ in other things."""
         found = copy(self)
         found.particles = particles
         return found
@@ -129,7 +129,7 @@ class Neighbourhood:
         return self._correction
 
     def inverted(self, least_determinant, second=None):
-        """As `correction`, of another least determinant, or of other moments (n, 3, 4)."""
+        """As `correction`, with another least determinant, or from other moments (n, 3, 4)."""
         out = np.empty_like(self.second)
         second = self.second if second is None else second
         moments.invert(second, self.stencil, least_determinant, out)
@@ -158,7 +158,8 @@ class Neighbourhood:
     def close(self, distance):
         """Rows of the pairs that may be closer than a distance [m] where the particles are now.
 
-        Those that were, or whose particles together have moved on by as much as was missing.
+        Pairs that were as close when they were measured, and those whose two particles have
+        together moved by the distance that was missing.
 
         Returns
         -------

@@ -55,9 +55,10 @@ def names(family: str) -> tuple[str, ...]:
 
 
 def add(family, name, model):
-    """Let cases choose a model of one's own, until the program ends.
+    """Let cases choose a model of the user's own, until the program ends.
 
-    A run that goes on in another program has to be given it again.
+    A run that goes on in another program finds it if a module holds it by a name
+    (`mpslab.core.own`); else it must be added again.
 
     Parameters
     ----------
@@ -93,7 +94,7 @@ def has(family, name):
 
 
 def load(family: str, name: str):
-    """Module of the model `name` of a family; of one that was added, what was given there.
+    """Module of the model `name` of a family; if it was added, the object that `add` was given.
 
     Raises ValueError with the key, the choices and the nearest of them if there is no such model.
     """

@@ -12,8 +12,8 @@ class Stopwatch:
 
     Both are opened by ``with``, one inside another; time counts for the innermost alone, and
     outside of all phases not at all.  Communication is what a rank does to pack, send, receive and
-    unpack.  Waiting is until another rank is there, or its message: how long that was under way
-    cannot be told apart.
+    unpack.  Waiting is the time until another rank, or its message, is there; for how much of it
+    the message was under way cannot be known.
 
     Attributes
     ----------
@@ -58,7 +58,9 @@ class Stopwatch:
 
 
 class _Turn:
-    """A ``with`` block of a stopwatch; a class, for a solver opens some in each iteration."""
+    """A ``with`` block of a stopwatch; as a class it is quick enough for the iterations of a
+    solver.
+    """
 
     __slots__ = ("back", "to", "watch")
 

@@ -1,8 +1,9 @@
 """Choice of the time step: the least of several limits, each with a name.
 
 Where water runs into a wall, or into other water, the blow takes as long as the gap takes to close.
-In a few long steps its pressure is so high that the disorder of the particles throws them about,
-and the water gains energy; the rate at which it runs together tells in time, some steps before.
+If that is only a few long steps, the pressure is so high that the disorder of the particles throws
+them about, and the water gains energy. The rate at which water runs together tells of the blow in
+time, some steps before.
 """
 
 from math import hypot, sqrt

@@ -1,4 +1,4 @@
-"""The ranks as a group: the group of one, who shares cores, and how to wait for the others."""
+"""The ranks as a group: a group of one, which ranks share cores, and how to wait for the others."""
 
 import os
 import platform
@@ -15,27 +15,28 @@ def cores():
 
 
 def looks_before_nap(ranks, cores):
-    """Looks at a message that has not come, each a microsecond, before a nap.
+    """How often to look for a message, a microsecond each time, before the rank sleeps.
 
-    Who naps comes late, and all who wait for him nap in their turn: so not in the common waits of a
-    step.  But who looks keeps a core busy, and where ranks share one the other could not get on.
+    A rank that sleeps wakes late, and then all ranks that wait for it sleep in their turn: so none
+    should sleep in the usual waits of a step.  But a rank that looks keeps its core busy, and where
+    ranks share a core the other one could not get on.
 
     Parameters
     ----------
     ranks, cores : int
-        On this machine, and those that they may run on.
+        Of this machine, and those that its ranks may run on.
     """
     return 100 if ranks > cores else 30_000
 
 
 class Patience:
-    """How many looks it takes; `find` sets it, for all ranks together."""
+    """How often to look before sleeping; `find` sets it, for all ranks together."""
 
     looks = looks_before_nap(1, 1)
 
     @classmethod
     def find(cls, comm):
-        """Count the ranks on this machine and the cores that one or the other may run on."""
+        """Count the ranks on this machine, and the cores that any of them may run on."""
         here = platform.node()
         found = [theirs for place, theirs in comm.allgather((here, cores())) if place == here]
         cls.looks = looks_before_nap(len(found), len(set.union(*found)))
@@ -84,7 +85,7 @@ def all_here(comm, patience=5.0):
     Parameters
     ----------
     comm : communicator
-        One that serves for nothing else: the other ranks may be waiting for something else.
+        One that is used for nothing else, as the other ranks may be in the middle of something.
     """
     if comm.size == 1:
         return True

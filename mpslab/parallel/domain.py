@@ -1,12 +1,13 @@
 """Who owns what: slabs among ranks, ghosts, migration, sums over all ranks.
 
-A rank owns a contiguous run of whole slabs, the particles in them, and sees the particles of the
-slab on either side, its ghosts.  A slab is two influence radii wide, so that the neighbours of an
-owned particle's neighbours are all there: what a model computes for a ghost next to the border is
-what its owner computes, bit by bit, and models need not know about ranks.
+A rank owns a contiguous run of whole slabs and the particles in them. It also sees the particles of
+the next slab on either side, its ghosts.  A slab is two influence radii wide, so that the
+neighbours of an owned particle's neighbours are all there: what a model computes for a ghost next
+to the border is what its owner computes, bit by bit, and models need not know about ranks.
 
 Within a step the particles lie in the order of their cells (`mpslab.core.cells`), and so slab by
-slab: what a rank owns is one piece, and so is all that it gives and gets.
+slab: what a rank owns is one piece of each array, and so is all that it gives to another rank or
+gets from it.
 
 One process is a communicator of size one, and runs the same code.  This is the only module that
 knows of MPI.
@@ -65,7 +66,7 @@ class Domain:
     comm : communicator, optional
         That of `world` unless given.
     cells : mpslab.core.cells.Cells, optional
-        Into which the slabs are divided; unless given, only along x.
+        Into which the slabs are divided; unless given, they are divided along x only.
 
     Attributes
     ----------
@@ -75,7 +76,7 @@ class Domain:
     slab : (n,) int32
         Slab of each particle, where `share_out` found it.
     owned : slice
-        The particles that are no ghosts.
+        The particles that are not ghosts.
     stopwatch : mpslab.core.stopwatch.Stopwatch
         Of the step; it also counts what goes into communication and waiting.
     migrated : int
@@ -112,7 +113,7 @@ class Domain:
         """This rank's share of the particles that rank 0 has, cut by a method of
         `mpslab.parallel.balance`.
 
-        What the other ranks hand over does not count; it may be a set without particles.
+        What the other ranks hand over is not used; it may be a set without particles.
         """
         slab = self.slabs.of(particles.position[:, 0])
         work = rebalance.load(method, particles.fluid, slab, self.slabs.count)
@@ -155,7 +156,7 @@ class Domain:
         return self.keep(particles, self.owned) if self.ghosts else particles
 
     def keep(self, particles, rows):
-        """The particles of a mask, index or slice; ghosts are not known from then on."""
+        """The particles of a mask, index or slice; from then on none counts as a ghost."""
         self.slab = self.slab[rows]
         self.owned = slice(0, len(self.slab))
         return particles.take(rows)
@@ -219,7 +220,9 @@ class Domain:
         return self.slabs.of(arrays[POSITION][:, 0])
 
     def _exchange(self, arrays, rows):
-        """Send rows[r] of the arrays to each rank r; what comes in, an entry a rank that sends."""
+        """Send rows[r] of the arrays to each rank r; returns what came in, one entry for each
+        sender.
+        """
         kind = np.dtype([(str(k), a.dtype, a.shape[1:]) for k, a in enumerate(arrays)])
         with self.stopwatch.kind(COMMUNICATION):
             self._meet()
@@ -301,7 +304,7 @@ class Domain:
             return self.comm.allgather(item)
 
     def on_root(self, act):
-        """As the function `on_root`; for the other ranks that is waiting."""
+        """As the function `on_root`; the other ranks' time counts as waiting."""
 
         def work():
             with self.stopwatch.kind(WORK):

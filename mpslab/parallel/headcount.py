@@ -1,15 +1,16 @@
 """What launchers say of the processes they start.
 
-A process that is one of several by its launcher's word, and alone by that of its MPI, was started
-by the launcher of another MPI, or by one without MPI: each would run the whole tank, all of them
-into the same folder.
+If its launcher says that a process is one of several, and its MPI that it is alone, then the
+launcher is that of another MPI, or knows no MPI. Then each process would run the whole tank, and
+all of them into the same folder.
 """
 
-# The number of ranks: of Open MPI, MVAPICH, and MPICH and its kin.
+# Variables with the number of ranks: of Open MPI, MVAPICH, and MPICH and its relatives.
 SIZES = ("OMPI_COMM_WORLD_SIZE", "MV2_COMM_WORLD_SIZE", "PMI_SIZE")
-# The number of ranks on this machine, which may not be all.
+# With the number of ranks on this machine, which may not be all of them.
 LOCAL_SIZES = ("MPI_LOCALNRANKS", "OMPI_COMM_WORLD_LOCAL_SIZE", "MV2_COMM_WORLD_LOCAL_SIZE")
-# Step numbers of Slurm from here on are no steps of srun: the script, or the shell, of a job.
+# Slurm's step numbers from here on stand for the script, or the shell, of a job, not for a step of
+# srun.
 SLURM_SCRIPTS = 0xFFFFFFF0
 
 

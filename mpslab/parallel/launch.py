@@ -7,7 +7,8 @@ from pathlib import Path
 
 
 def mpiexec():
-    """Path of mpiexec: the one beside this Python, that of the mpich package, or of the system.
+    """Path of mpiexec: the one beside this Python, else that of the mpich package, else of the
+    system.
 
     Raises
     ------

@@ -10,12 +10,12 @@ SOLID = 0.05
 
 
 def load(method, fluid, slab, slabs):
-    """Load of each slab, (slabs,), by which a method cuts.
+    """Load of each slab, (slabs,), by which a method chooses its cuts.
 
-    The paper's "centroid" counts particles.  The others take the work: of rows in the lists and
-    in the matrix, which only water has, and a little for each other particle.  It is counted, not
-    timed: the fixed cost of a step would make the particles of a rank with few of them look
-    expensive, the rank would be given fewer still, and so on.
+    The paper's "centroid" counts particles.  The others count the work: that for the rows of the
+    lists and of the matrix, which only water has, and a little for each other particle.  It is
+    counted, not timed: a step has a fixed cost, so that the particles of a rank with few of them
+    would look expensive; the rank would be given fewer still, and so on.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def load(method, fluid, slab, slabs):
 
 
 class Rebalancer:
-    """Cuts anew, and remembers when it last did.
+    """Makes new cuts, and remembers when it last did.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ class Rebalancer:
                 load(method, particles.fluid, domain.slab, domain.slabs.count)
             )
 
-        # The imbalance is that of the work, whatever a method cuts by.
+        # The imbalance is that of the work, whatever the method goes by.
         work = loads("optimal")
         share = loads("centroid") if self.method == "centroid" else work
         before = balance.imbalance(work, domain.cuts)

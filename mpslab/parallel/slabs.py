@@ -1,23 +1,25 @@
 """Slabs: the tank cut across its length, as wide as two influence radii.
 
-The slab is the atom of everything parallel.  Slabs of one colour, red (even) or black (odd), do
-not touch, and sums add what the slabs sum to, in their order.  The grid follows from the case, not
-from where the particles are, nor from the number of ranks: so neither changes a bit of the answer.
+All that is parallel is made of whole slabs.  Slabs of one colour, red (even) or black (odd), do not
+touch, and a sum over the tank adds the sums of the slabs in their order.  The grid follows from the
+case alone, not from the places of the particles nor from the number of ranks: so the number of
+ranks does not change a bit of the answer.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-# In influence radii.  One would do for slabs of a colour not to touch.  But the red-black factor
-# gets better with wider slabs: on the tank of the paper, PICCG-RP needs 19 % more iterations than
-# ICCG with one radius, 9 % with two.  And two radii hold the neighbours of the neighbours.
+# In influence radii.  One would be enough to keep slabs of a colour apart.  But the red-black
+# factor is better with wider slabs: on the tank of the paper, PICCG-RP needs 19 % more iterations
+# than ICCG with one radius, 9 % with two.  And in two radii there are the neighbours of the
+# neighbours.
 WIDTH = 2.0
 
 
 @dataclass(frozen=True)
 class Slabs:
-    """Equal slabs normal to x; the outermost two reach on for ever.
+    """Equal slabs normal to x; the first and the last have no outer end.
 
     Attributes
     ----------
@@ -40,7 +42,7 @@ class Slabs:
     def of(self, x):
         """Slab of each place x [m], (n,) int32."""
         place = np.floor((np.asarray(x) - self.lower) * self.per)
-        # fmax and fmin, for they put a place that is not a number into a slab as well.
+        # fmax and fmin, because they put a place that is not a number into a slab as well.
         return np.fmin(np.fmax(place, 0.0), self.count - 1.0).astype(np.int32)
 
 

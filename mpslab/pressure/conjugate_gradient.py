@@ -24,7 +24,7 @@ def conjugate_gradient(
         Of |b - A x| / |b|.
     max_iterations : int
     replaced : int
-        Handed through to the report.
+        For the report.
     deflation : mpslab.pressure.deflation.Deflation, optional
         Takes the smooth part out of the residual; x gets it at the end.
     """
@@ -47,7 +47,7 @@ def conjugate_gradient(
         system.multiply(p, q)
         curvature = deflation.project_product(p, q) if deflate else dots((p, q))[0]
         if rho == 0.0 or curvature == 0.0:
-            break  # no direction is left to go: the run stops, for it did not converge
+            break  # no direction is left to go: not converged, and the run stops
         alpha = rho / curvature
         axpy(alpha, p, x)
         axpy(-alpha, q, r)

@@ -1,9 +1,9 @@
 """Deflation: the smooth part of the pressure, solved for at once.
 
-What conjugate gradients are slow at is pressure that varies over many particles.  Its shape is
-given by one number a group of neighbouring rows (Nicolaides 1987), and the system of these
-numbers, Z^T A Z, is small: a direct solve in every iteration, or, where its factor would cost too
-much, conjugate gradients with a deflation of their own, whose groups are four of these.
+Conjugate gradients are slow where the pressure varies over many particles.  This smooth part is
+given by one number for each group of neighbouring rows (Nicolaides 1987), and the system of these
+numbers, Z^T A Z, is small.  It is solved directly in every iteration, or, where its factor would
+cost too much, by conjugate gradients with a deflation of their own, whose groups are four of these.
 """
 
 import numpy as np
@@ -12,13 +12,13 @@ from mpslab.kernels import coarse, sparse
 from mpslab.pressure.conjugate_gradient import by_diagonal, conjugate_gradient
 from mpslab.pressure.system import PressureSystem
 
-# What the factor of the band may cost at most: multiply-adds a row of the finest system.  That is
-# a hundredth of a step, but every rank does all of it, on 16 ranks a sixth.
+# What the factor of the band may cost at most, in multiply-adds for each row of the finest system.
+# That is a hundredth of a step; but every rank does all of it, so on 16 ranks it is a sixth.
 WORK = 200
-# Of a coarse system that is solved by iterations: its residual, as a share of that of the system
-# above it (what it leaves of a sum is not taken out by any iteration there), and their most.
+# Of a coarse system that is solved by iterations: the residual to reach, as a share of that of the
+# system above it (no iteration there takes out what it leaves), and the most iterations.
 SHARPER, FINEST, MOST = 0.01, 1e-14, 200
-# Cells across the tank in the number of a group; far more than there are.
+# Cells across the tank in the key of a group: far more than there are.
 SIDE = 1 << 20
 
 
@@ -134,7 +134,7 @@ class Band:
         return y
 
     def solve_and_dot(self, sums, by_block):
-        """`solve`, and the sum of by_block less sums . y; ranks meet but once for both."""
+        """`solve`, and the sum of by_block less sums . y; ranks meet only once for both."""
         both = self.system.blocks.collect(np.concatenate([sums, by_block]))
         sums, y = both[: len(sums)], both[: len(sums)].copy()
         coarse.substitute(self.band, self.inverse, y)
@@ -142,7 +142,7 @@ class Band:
 
 
 class Nested:
-    """Z^T A Z as a system shared out among the ranks as its rows are, slab by slab."""
+    """Z^T A Z as a system whose rows the ranks share out slab by slab, as those of A."""
 
     def __init__(self, deflation, tolerance, budget):
         self.tolerance, self.missed = tolerance, 0.0
@@ -170,7 +170,9 @@ class Nested:
         self.deflation = Deflation(self.system, tolerance, 2, budget)
 
     def solve(self, sums):
-        """(Z^T A Z)^-1 of the sums of this rank's groups, a value for each it has to do with."""
+        """(Z^T A Z)^-1 of the sums of this rank's groups: a value for each of them and of its
+        ghosts.
+        """
         system, y = self.system, np.zeros(len(sums))
         system.right = sums
         report = conjugate_gradient(

@@ -7,7 +7,7 @@ from mpslab.parallel import slabs
 from mpslab.pressure.blocks import Blocks
 from mpslab.pressure.system import PressureSystem
 
-FAR = 100_000  # cells; farther away all places are in the same one
+FAR = 100_000  # cells; all places farther away are in the same one
 
 
 def assemble(
@@ -26,8 +26,8 @@ def assemble(
     source : (n,) float64 [1/s2]
         Right-hand side for all particles.
     unknowns : (n,) bool, optional
-        Particles whose pressure is in the equation, unless all that carry one; the others are left
-        out of it, which means dp/dn = 0.
+        Particles whose pressure is in the equation, by default all that carry one; the others are
+        left out, which means dp/dn = 0.
     surface_pull : (n,) float64, optional
         Added to the diagonal; with it, surface particles have rows as all others.
     domain : mpslab.parallel.domain.Domain, optional
@@ -69,14 +69,15 @@ def assemble(
 
 
 def cells(place, width):
-    """Cell of each place [m] in y or z, so wide [m]; one that is not a number has one as well."""
+    """Cell of each place [m] in y or z; a place that is not a number has a cell as well."""
     return np.fmin(np.fmax(np.floor(place / width), -FAR), FAR).astype(np.int32)
 
 
 def _hold_cut_off_rows(system, excess):
-    """Make the diagonal of rows that no path ties to the surface larger: they would be singular.
+    """Make the diagonal larger in rows that no path ties to the surface, which would be singular.
 
-    It is doubled; where it is 0, for lack of any neighbour with a pressure, it becomes the largest.
+    It is doubled; where it is 0, because no neighbour has a pressure, it becomes the largest of
+    all.
     """
     alone = ~_reached(system, excess > 0.0)
     diagonal, collect = system.diagonal, system.blocks.from_all

@@ -5,7 +5,7 @@ from mpslab.core.schedule import check_interval, due
 
 
 class Actions:
-    """Things to do, each in its own time."""
+    """Things to do, each at intervals of its own."""
 
     def __init__(self):
         self._actions = []

@@ -42,9 +42,9 @@ class Flow:
     done : dict
         What the loop says of the last step, for the table of steps; empty before the first.
     readings : dict of str to float
-        What the gauges read last, by name [m], for what moves by it.
+        What the gauges read last, by name [m], for a paddle that goes by it.
     reaction : mpslab.models.reaction.Reaction or None
-        Adds up what solids give the water, where somebody asks for it.
+        Adds up what solids give the water, where the case asks for forces.
     compression : float [1/s]
         Largest rate at which the water of this rank ran together in the last step, before the
         pressure acted.
@@ -83,7 +83,7 @@ class Flow:
 
     @property
     def copies(self):
-        """Whether the layers behind the walls' first one have a copy of its pressure."""
+        """Whether the layers behind the first one of a wall have a copy of its pressure."""
         return self.case.scheme.walls == "copied"
 
     @property
@@ -118,7 +118,7 @@ def make_flow(case, particles, solids, width, forcings=(), comm=None):
     particles : ParticleSet
         All particles of the tank, on rank 0; the flow keeps those of this rank.
     solids : Solids
-        Of this tank; on rank 0 they see all particles before these are shared out.
+        Of this tank; on rank 0 they look at all particles before these are shared out.
     width : float [m]
         Period across the tank, 0 when not periodic.
     forcings : sequence of forcings
@@ -167,7 +167,7 @@ def slabs_of(case, paddle):
 
 
 def cells_of(case, slabs, width):
-    """The cells of the tank of a case, whose period is so wide [m], 0 when not periodic."""
+    """The cells of the tank of a case; `width` is its period [m], 0 when not periodic."""
     tank, spacing = case.tank, case.particles.spacing
     beyond = case.particles.layers * spacing
     lower = np.array([slabs.lower, 0.0, 0.0]) - beyond

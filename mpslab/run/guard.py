@@ -8,7 +8,7 @@ from mpslab.core.lattice import effective_length, rows_across
 from mpslab.solids import obstacles
 
 MOST_LOST = 1e-3  # of the fluid particles at the start
-FEW_LOST = 5  # are borne by any run
+FEW_LOST = 5  # may be lost by any run
 
 
 class RunFailed(RuntimeError):
@@ -63,7 +63,7 @@ def find_lost(case, particles, face):
 
 
 def _may_be_lost(case, particles, face):
-    """Mask of the water behind a wall, or lower than the highest bed: little of it, as a rule."""
+    """Mask of the water behind a wall, or lower than the highest bed; as a rule that is little."""
     x, y, z = particles.position.T
     suspect = (x < face) | (x > min(effective_length(case), case.tank.length))
     suspect |= z < max((height for _, height in case.tank.bed), default=0.0)
@@ -93,7 +93,7 @@ def check_finite(flow, step):
 def _not_finite(particles):
     """Rows with a position or velocity that is not a number."""
     arrays = particles.position, particles.velocity
-    # A sum is a number only if all of its terms are: the usual case takes one look at the arrays.
+    # A sum is a number only if all its terms are: as a rule one look at each array is enough.
     if np.isfinite(sum(array.sum() for array in arrays)):
         return []
     return np.flatnonzero(~np.isfinite(np.hstack(arrays)).all(axis=1))

@@ -26,8 +26,8 @@ SECONDS_PER_PARTICLE_STEP = {2: 2.4e-6, 3: 4.8e-6}
 BYTES_PER_PARTICLE = {2: 900, 3: 2200}
 BYTES_OF_PROGRAM = 120e6
 BYTES_PER_ENTRY = 40  # of a table's row, in memory
-# Of a particle in a frame on the disk, packed: its place (""), and each field that is not near to
-# the same for all.
+# Of a particle in a frame on the disk, compressed: its place (""), and each field that differs from
+# particle to particle.
 BYTES_PER_POINT = {"": 11.0, "velocity": 10.0, "pressure": 3.5, "number_density": 3.5}
 BYTES_PER_NUMBER = 20.0  # of an entry of a table on the disk
 LEAST_STROKE = 0.1  # spacings
@@ -91,7 +91,7 @@ class Preflight:
 
 
 def preflight(case):
-    """Work out the findings for a case, from numbers alone: lays out nothing and runs no step.
+    """Work out the findings for a case from numbers alone, without laying out a particle.
 
     Returns
     -------
@@ -140,7 +140,7 @@ def check_ranks(case, ranks):
     solver_of(case, ranks)
     if ranks > 1:
         slabs = slabs_of(case, make_paddle(case))
-        # Of slabs that are alike, more than there are ranks change nothing.
+        # More slabs than ranks make no difference, as these are all alike.
         balance.cut(case.parallel.balance, np.ones(min(slabs.count, ranks + 1)), ranks)
 
 

@@ -6,7 +6,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 LINE_EVERY = 10.0  # seconds between the lines of a log
-SEEN = 3600.0  # seconds over which a bar takes the speed that tells the time left
+SEEN = 3600.0  # seconds over which a bar takes the mean speed, for the time left
 
 
 def make_progress(until, started, console=None):

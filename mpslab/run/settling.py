@@ -1,9 +1,10 @@
 """Puts the water in order before the start.
 
-The lattice on which it is laid out is no place where particles stay: it gives way within some 20
-steps, everywhere at once, and the number density changes with it by some thousandths.  Water that
-follows in so short a time needs a pressure of that times the square of the layers: over 60 layers
-the pressure fell to nothing and rose to five times its value, over 120 it tore the water apart.
+Particles do not stay on the lattice on which they are laid out: it gives way within some 20 steps,
+everywhere at once, and the number density changes by some thousandths.  If water had to follow in
+so short a time, its pressure would have to change by that share times the square of the layers:
+with 60 layers the pressure fell to nothing and rose to five times its value, with 120 it tore the
+water apart.
 """
 
 import numpy as np
@@ -16,7 +17,7 @@ from mpslab.solids import filling
 
 SHAKE = 0.1  # spacings: a random displacement, from which the water finds its order
 MOMENTUM = 0.9  # share of the last displacement that goes into the next
-CALM = 10  # passes without, in which the shake dies down
+CALM = 10  # passes without momentum, in which the shake dies down
 LONGEST = 0.1  # spacings: displacement in a pass
 PASS = 1.0  # a pass is a pace
 SETTLED = 1e-4  # spacings: rms of the displacements, momentum aside, at which the passes end
@@ -29,10 +30,11 @@ def settle(flow):
     heavy ball), until next to nothing is left of them: what is left presses on the water with the
     weight of all above it, and sets it in motion.
 
-    Meanwhile a lid of particles lies on the water, which finds its order below it as it does above
-    the bed, and its surface stays level.  Where there is no lid, the surface and what has it in
-    reach stay as they are, for shifting leaves them alone.  Nothing flows: velocities stay, and a
-    particle that moves up or down changes its pressure by that of so much water.
+    Meanwhile a lid of particles lies on the water. Below it the water finds its order as it does
+    above the bed, and its surface stays level.  Where there is no lid, the surface and the
+    particles near it stay as they are, because shifting leaves them alone.  Nothing flows:
+    velocities do not change, and the pressure of a particle that moves up or down changes by the
+    weight of the water between.
     """
     if flow.case.scheme.settling == 0:
         return

@@ -100,7 +100,7 @@ def measure(flow):
 
 
 def _add_viscosity(flow, dt):
-    """u* = u' + nu <lap u> dt; its share of r* is of second order in dt and left out."""
+    """u* = u' + nu <lap u> dt; what it adds to r* is of second order in dt, and left out."""
     fluid, scheme = flow.case.fluid, flow.case.scheme
     if fluid.viscosity == scheme.smagorinsky == 0.0:
         return
@@ -116,7 +116,7 @@ def _add_viscosity(flow, dt):
 
 
 def find_surface(flow):
-    """The surface; its grade where the scheme asks for it."""
+    """Find the free surface; returns its grade where the scheme asks for it, else None."""
     graded, scheme = None, flow.case.scheme
     if scheme.surface == "graded":
         graded = surface.grade_surface(flow.near)
@@ -149,13 +149,14 @@ def _assemble(flow, graded, pull, dt):
 
 
 def density_rate(case, time):
-    """At which rate the mixed sources take back an error of the number density [1/s].
+    """Rate at which the mixed sources take back an error of the number density [1/s].
 
-    ``scheme.gamma`` is its share in `timestep.pace`, up to 20 layers of water; of more layers it
-    is less, so that the time is always the same part of that of a wave across the depth: under
-    the weight of the layers, a change of rate needs a pressure that grows with their square.
-    For the same reason it begins with nothing, and is whole after the time that a wave takes for
-    twice the depth: at once, it would give the water at rest a blow of several times its weight.
+    ``scheme.gamma`` is the share that is taken back in `timestep.pace`, in up to 20 layers of
+    water. In more layers it is less, so that the time for it stays the same part of the time that a
+    wave takes across the depth: the pressure that a change of rate needs grows with the square of
+    the layers. For the same reason the rate is zero at t = 0, and whole after the time that a wave
+    takes for twice the depth: if it were whole at once, it would give the water at rest a blow of
+    several times its weight.
     """
     layers = case.tank.deepest / case.particles.spacing if case.fluid.gravity else 0.0
     rate = case.scheme.gamma * LAYERS / max(layers, LAYERS) / pace(case)
@@ -194,7 +195,7 @@ def _press(flow, dt):
     near = flow.near_gradient
     if flow.copies:
         near.loaded = copied.fill(near)
-        # The nearest face of a ghost may lie beyond all ghosts.
+        # The face that is nearest to a ghost may be on another rank alone.
         flow.domain.refresh(near.particles.pressure, near.loaded)
     gradient = flow.gradient.gradient
     if flow.reaction and hasattr(flow.gradient, "as_pairs"):
@@ -210,7 +211,7 @@ def _press(flow, dt):
 
 
 def _act(flow, near, change):
-    """Change the velocity of the water by a sum over pairs; who asks for forces gets its share."""
+    """Change the velocity of the water by a sum over pairs, and note the solids' part in it."""
     if flow.reaction:
         flow.reaction.add(near, change)
     flow.particles.velocity += change(near)
@@ -219,8 +220,8 @@ def _act(flow, near, change):
 def _flight(flow, dt):
     """u dt, but no more than a spacing [m], (n, 3).
 
-    Only what was alone before the step can be as fast: a particle that did not limit it must not
-    pass through what it meets.
+    Only a particle that was alone before the step, and so did not limit it, can be as fast; it must
+    not pass through what it meets.
     """
     path, furthest = dt * flow.particles.velocity, FURTHEST * flow.stencil.spacing
     square = np.einsum("ij,ij->i", path, path)

@@ -4,9 +4,9 @@ Each module has one function::
 
     solve(system, x, tolerance, max_iterations) -> mpslab.pressure.system.SolverReport
 
-which starts from ``x`` and leaves the solution there, and a flag ``BY_SLAB``: whether it asks in
-which slab a row is, as all solvers do that run on many ranks.  Rows are in the order of the
-particles, which is one of slabs and of cells.  With
-``NEEDS_GHOST_ROWS = True`` the rows of all ghosts have their couplings, else only those next to the
-border: a solver that takes couplings of ghosts without it depends on the number of ranks.
+which starts from ``x`` and leaves the solution there, and a flag ``BY_SLAB``: whether it works slab
+by slab, as all solvers do that run on many ranks.  Rows are in the order of the particles, and so
+slab by slab, and in a slab cell by cell.  With ``NEEDS_GHOST_ROWS = True`` the rows of all ghosts
+have their couplings, else only those of ghosts next to the border: a solver that uses couplings of
+ghosts without this flag gives results that depend on the number of ranks.
 """
