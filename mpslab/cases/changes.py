@@ -8,7 +8,7 @@ from mpslab.cases.recipes import RECIPES
 from mpslab.core.keys import CaseError, shown
 from mpslab.core.parameters import LISTS
 
-# A number as Python takes it, by itself: no part of a word or of another number.
+# A number as Python writes it, alone: not a part of a word or of another number.
 NUMBER = re.compile(r"(?<![\w.+-])[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![\w.])")
 
 
@@ -55,7 +55,9 @@ def _only_value(text):
 
 
 def _full_numbers(text):
-    """Numbers with a digit on either side of the point and no zeros ahead of it: -.5, 5., 007."""
+    """Numbers in TOML's form, with digits on both sides of the point and no leading zeros: -.5, 5.,
+    007.
+    """
     if not text.startswith("[") and not NUMBER.fullmatch(text):
         return text
     return NUMBER.sub(lambda number: repr(_read_number(number[0])), text)
@@ -85,7 +87,7 @@ def _put(tables, name, value):
 
 
 def _index(place, part, name, value):
-    """Index into a list; refuses what is no list, and what is not in it."""
+    """Index into a list; refuses what is not a list, and an index that is not in it."""
     if not isinstance(place, list):
         raise CaseError(f"{name} = {shown(value)}: must be a known key, and {part!r} leads nowhere")
     if not part.isdecimal() or int(part) >= len(place):

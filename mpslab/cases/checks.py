@@ -17,7 +17,7 @@ from mpslab.forcings import frame
 from mpslab.solids import obstacles
 from mpslab.solids.census import census
 
-# Above this a case is taken for a slip of the pen: its arrays would take hundreds of gigabytes.
+# A case with more than this is taken for a mistake: its arrays would take hundreds of gigabytes.
 MOST_PARTICLES = 1e9
 
 # How many tables, or points, there may be under a key.
@@ -30,8 +30,9 @@ WAVES = (
     "bichromatic",
 )  # fmt: skip
 
-# Radius [spacings] up to which walls that are solved for hold the water: at 2.3 the hydrostatic
-# pressure of 20 layers is 0.97 of what it should be in 2-D, 0.95 in 3-D, at 3.1 0.75.
+# Largest radius [spacings] with which walls that are solved for hold the water: with 2.3 the
+# hydrostatic pressure of 20 layers is 0.97 of what it should be in 2-D, 0.95 in 3-D, with 3.1 it is
+# 0.75.
 WIDEST_SOLVED = 2.3
 
 NARROWEST = 1.5  # spacings that a radius may have at the least

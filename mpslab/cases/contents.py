@@ -16,7 +16,7 @@ ROUNDING = 1e-9
 # Names that no obstacle or gate may have.
 RESERVED = ("water", "tank", "piston", "end_wall")
 
-# A disc so many spacings across holds the centre of a particle, wherever it lies.
+# A disc that is this many spacings across holds the centre of a particle wherever it lies.
 LEAST_DISC = 2
 
 
@@ -96,13 +96,13 @@ def _check_obstacles(case):
 
 
 def _room(case):
-    """What the obstacles leave of the water: boxes as pairs of corners [m]."""
+    """The water without the obstacles: boxes as pairs of corners [m]."""
     boxes = [(box.start, box.end) for box in case.water] or [filling.filled(case)]
     return [piece for box in boxes for piece in obstacles.around(case, *box)]
 
 
 def _check_names(case):
-    """Solids have names of their own: in what is written, a name stands for one thing."""
+    """Refuse two solids of one name: in the files a name stands for one thing."""
     seen = dict.fromkeys(RESERVED, f"those of the tank, {', '.join(RESERVED)}")
     for kind in ("obstacle", "gate"):
         for i, solid in enumerate(getattr(case, kind)):

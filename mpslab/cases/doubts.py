@@ -10,7 +10,7 @@ from mpslab.core.parameters import Case
 from mpslab.forcings.frame import strongest
 
 NARROW = 4.0  # spacings: the particles do not resolve what is narrower in the bed
-# Times that the step may be shorter for viscosity than without: more, and the viscosity may be one
+# How many times shorter viscosity may make the step: if it is more, the viscosity was perhaps given
 # in other units.
 MOST_VISCOUS = 10.0
 
@@ -103,7 +103,9 @@ def _uneven_bed(case, reach):
 
 
 def _narrow_bed(case):
-    """Where the bed rises, or falls, on both sides of a place by a spacing within two of it."""
+    """Where the bed rises, or falls, by a spacing on both sides of a place, within two spacings of
+    it.
+    """
     spacing, x = case.particles.spacing, np.array(case.tank.bed)[:, 0]
     half, middle = 0.5 * NARROW * spacing, 0.5 * (x[:-1] + x[1:])
     place = np.concatenate([x, middle[np.diff(x) < 2.0 * half]])

@@ -1,7 +1,7 @@
 """The input files of a case: kept in the run folder, and known by their checksums.
 
-A run reads its input files again whenever it goes on. So that it finds the same ones, wherever its
-folder has come to and whatever has become of the files themselves, it keeps copies of them.
+A run reads its input files again whenever it goes on. It keeps copies of them, so that it finds the
+same files even if its folder was moved, or the files were changed.
 """
 
 import hashlib
@@ -67,7 +67,9 @@ def keep(inputs, folder):
 
 
 def pointed(case, inputs, folder=None):
-    """The case with its input files in a run folder; without one, by their names in it alone."""
+    """The case with the paths of its input files in a run folder; without a folder, with the names
+    of the copies alone.
+    """
     for item in inputs:
         table, name = item.key.split(".")
         path = str(Path(folder).absolute() / item.copy) if folder else item.copy

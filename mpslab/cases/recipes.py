@@ -20,8 +20,8 @@ RECIPES = {
         "gradient_radius": 0.0,
         "laplacian_radius": 2.1,
     },
-    # What Gotoh, Khayyer, Ikari and Hori do in the paper.  Equation (4) leaves open what decides
-    # whether the wave plunges: this is the reading with which it does (docs/cmps.md).
+    # What Gotoh, Khayyer, Ikari and Hori do in the paper.  Equation (4) can be read in several
+    # ways, and this decides whether the wave plunges: with this reading it does (docs/cmps.md).
     "paper": {
         "gradient": "cmps_soft",
         "source": "density",

@@ -1,4 +1,4 @@
-"""How much a run will do and write, by arithmetic, and where that is a slip of the pen."""
+"""How much a run will do and write, by arithmetic; sizes that can only be a mistake are refused."""
 
 import math
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ class Sizes:
 
 
 def sizes(case: Case) -> Sizes:
-    """What a run comes to, at the speed of water that falls from the highest to the lowest place.
+    """Sizes of a run, with the speed of water that falls from the highest to the lowest place.
 
     Raises
     ------

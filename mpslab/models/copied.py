@@ -1,7 +1,7 @@
 """Walls whose layers behind the first one have a copy of its pressure, ``scheme.walls = "copied"``.
 
-The pressure of the first layer is an unknown, as with ``"solved"``; dp/dn = 0 behind it.  So a
-gradient that sees farther than the first layer is held up by all the layers that it sees.
+The pressure of the first layer is an unknown, as with ``"solved"``; behind it dp/dn = 0.  So with a
+gradient that reaches farther than the first layer, all the layers in its reach hold the water up.
 """
 
 import numpy as np
@@ -10,7 +10,8 @@ from mpslab.kernels import walls as kernels
 
 
 def fill(near):
-    """Give each filler the pressure of the nearest face, in place; which particles act with one.
+    """Give each filler the pressure of the nearest face, in place; returns which particles act with
+    one.
 
     Parameters
     ----------

@@ -7,14 +7,14 @@ from mpslab.kernels import viscosity as kernels
 
 
 def eddies(near, scheme, refresh):
-    """Eddy viscosity of Smagorinsky (1963), nu_e = (C_s d0)^2 |S|, (n,) [m2/s]; None without.
+    """Eddy viscosity of Smagorinsky (1963), nu_e = (C_s d0)^2 |S|, (n,) [m2/s]; None with C_s = 0.
 
     Parameters
     ----------
     near : Neighbourhood
     scheme : table of the case
     refresh : callable
-        Brings an array of the particles up to date where they are ghosts.
+        Brings the ghosts' rows of an array up to date.
     """
     if scheme.smagorinsky == 0.0:
         return None

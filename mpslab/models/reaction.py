@@ -1,9 +1,10 @@
 """What the water and its solids give each other: impulses and their moments.
 
-Whatever acts between particles in a step (viscosity, pressure, stabilisers) acts pair by pair. What
-a solid gives the water is what the same model makes of the pairs of the water with this solid
-alone, and the solid gets the opposite. So action is reaction to rounding, with every model, and
-nothing is integrated over a face: impulse that the water got is impulse that a solid gave.
+Whatever acts between particles in a step (viscosity, pressure, stabilisers) acts pair by pair. To
+know what a solid gives the water, the same model is evaluated for the pairs of the water with this
+solid alone; the solid gets the opposite. So action equals reaction to rounding, with every model,
+and nothing is integrated over a face: the impulse that the water got is the impulse that the solids
+gave.
 """
 
 from dataclasses import replace
@@ -28,10 +29,10 @@ class Reaction:
     Attributes
     ----------
     span : float [s]
-        Time over which was added up.
+        Time that the sums are over.
     gained, pushed, given : (3,) float64 [kg m/s]
-        What momentum the water gained, and what of it from gravity and from all solids; in 2-D of
-        water 1 m wide.
+        Momentum that the water gained, and the parts of it from forcings and from all solids; in
+        2-D for water 1 m wide.
     on : (k, 6) float64 [N s, N m s]
         Impulse on each solid that is wanted, and its moment.
     """
@@ -41,7 +42,7 @@ class Reaction:
         self.clear()
 
     def clear(self):
-        """Begin anew to add up."""
+        """Begin to add up anew."""
         self.take(0.0, np.zeros(AXES * (3 + 2 * len(self.wanted))))
 
     def take(self, span, sums):
@@ -66,17 +67,19 @@ class Reaction:
         self._changes = [np.zeros_like(particles.velocity) for _ in self._pairs]
 
     def add(self, near, act):
-        """Note what solids do to the water, by what `act` makes of their pairs.
+        """Note what solids do to the water: what `act` gives for their pairs.
 
         near : Neighbourhood
         act : callable
-            Gives the change of velocity of the particles, (n, 3) [m/s], by a `Neighbourhood`.
+            Takes a `Neighbourhood`, gives the change of velocity of its particles, (n, 3) [m/s].
         """
         for change, pairs in zip(self._changes, self._pairs, strict=True):
             change += act(near.only(*pairs))
 
     def stabilise(self, near, act):
-        """As `add` for what `act`, of a `Neighbourhood`, does to its particles' velocity."""
+        """As `add` for an `act` that changes the velocity of a `Neighbourhood`'s particles in
+        place.
+        """
 
         def change(some):
             start = near.particles.velocity

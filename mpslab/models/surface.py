@@ -7,8 +7,8 @@ import numpy as np
 from mpslab.core.stencil import lattice_offsets
 from mpslab.kernels import density
 
-# In the second layer the neighbours are as lopsided as this, or with larger radii more so: by as
-# much more in the surface, too, so that the limits below move along [spacings].
+# How lopsided the neighbours are in the second layer [spacings]. With larger radii they are more
+# so, and by as much more in the surface too, so that the limits below move along.
 SECOND_LAYER = 0.02
 LOPSIDED = 0.2  # spacings
 FEW = 4
@@ -20,7 +20,7 @@ GRADE_SPRAY = (0.85, 0.70)
 def mark_surface(near, threshold, unknown):
     """Option ``scheme.surface = "marked"``: set ``particles.surface``, where p = 0 holds.
 
-    Only particles whose pressure is an unknown, a mask (n,) bool, can be marked: no others have
+    Only particles whose pressure is an unknown, a mask (n,) bool, can be marked: the others have no
     neighbours in the list.
 
     A particle is at the surface where n < threshold n0, unless its neighbours surround it
@@ -39,8 +39,8 @@ def mark_surface(near, threshold, unknown):
 def grade_surface(near):
     """Option ``scheme.surface = "graded"``: how much of the surface each particle is, (n,) float64.
 
-    0 inside, 1 at the surface or in spray, in between smoothly: a particle on its way to the
-    surface does not switch from one condition to another.  Sets ``particles.surface`` as well.
+    0 inside, 1 at the surface or in spray, and in between smooth: so a particle on its way to the
+    surface does not switch from one condition to the other.  Sets ``particles.surface`` as well.
     """
     rows = np.flatnonzero(near.particles.fluid)
     share = near.number_density[rows] / near.stencil.n0
@@ -60,8 +60,8 @@ def surface_pull(particles, graded, stencil, laplacian_stencil, pair_terms, dens
     the points themselves at p = 0 (half this pull; Tsuruta et al. 2015) the correction overshoots
     in 3-D, and the pressure of still water alternates by 6 % from step to step.
 
-    Which share of the neighbours is missing tells the number density, of the first stencil; the
-    pull of all of them is that of the Laplacian's.
+    The number density, of the first stencil, tells which share of the neighbours is missing; the
+    pull of all neighbours together is that of the Laplacian's stencil.
     """
     missing = np.maximum(1.0 - particles.number_density / stencil.n0, 0.0)
     return 2.0 * graded * missing * _lattice_sum(laplacian_stencil, pair_terms) / density_
@@ -88,7 +88,7 @@ def _lattice_sum(stencil, pair_terms):
 def _lopsided(near, rows):
     """|sum_j w r_ij| / sum_j w of rows: how lopsided the neighbours are [spacings], (m,).
 
-    What the second layer has more of it than at a radius of 2.1 is taken off.
+    If the second layer has more of it than at a radius of 2.1, the difference is taken off.
     """
     stencil, sums = near.stencil, near.first.take(rows, 0)
     length = np.sqrt(np.einsum("ij,ij->i", sums[:, :3], sums[:, :3]))

@@ -2,9 +2,9 @@
 
 Between a water particle i and a solid one j the pressure differs by rho (f - a_j) . r_ij, with a_j
 the acceleration of the wall and f that of the forcings, such as gravity: the Neumann condition,
-pair by pair (Adami, Hu & Adams 2012).  It holds still water exactly.  Wall particles as unknowns
-(``"solved"``) do not: their own rows see water on one side only, and give the bed half the pressure
-difference of a layer.
+pair by pair (Adami, Hu & Adams 2012).  It holds still water exactly.  With wall particles as
+unknowns (``"solved"``) it is not held exactly: their rows have water on one side only, and give the
+bed half the pressure difference of a layer.
 """
 
 import numpy as np
@@ -32,7 +32,7 @@ def pull(particles, before, force, dt, moving):
 
 
 def predicted_velocity(particles, pull_, dt):
-    """u* of all particles: solids, too, before the pressure acts, u* = u_wall + (f - a) dt."""
+    """u* of all particles, before the pressure acts; of solids too, u* = u_wall + (f - a) dt."""
     return particles.velocity + dt * pull_ * on_axes(particles.role != FLUID)
 
 

@@ -1,10 +1,10 @@
 """Changes to a large file that come about all together, or not at all.
 
 A file that grows in place, as a series of frames does, is not whole while it is written to: a kill
-or a full disk amid the writes would leave it damaged.  Here the writes are held back; at the end
-they go into a journal beside the file, which is renamed when it is whole, and only then into the
-file.  What a kill left undone is done from the journal when the file is opened to write it next;
-who only reads the file lays the journal over it.
+or a full disk in the middle of the writes would leave it damaged.  Here the writes are held back;
+at the end they go into a journal beside the file, which is renamed when it is whole, and only then
+into the file.  What a kill left undone is done from the journal when the file is next opened for
+writing; a process that only reads the file lays the journal over it.
 """
 
 import errno

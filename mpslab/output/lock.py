@@ -31,7 +31,7 @@ class FolderLock:
     Raises
     ------
     InUse
-        If it is held, be it by this process.
+        If it is held, by this process or another.
     OSError
         If nothing can be written there.
     """
@@ -62,7 +62,7 @@ def _lock(path):
             return descriptor
         if _is_there(path, descriptor):
             return descriptor
-        os.close(descriptor)  # who held it has removed it in between
+        os.close(descriptor)  # its holder has removed it in between
 
 
 def _is_there(path, descriptor):

@@ -9,13 +9,14 @@ from mpslab.core.keys import CaseError, shown, toml_name
 from mpslab.core.parameters import LISTS, TABLES, Case
 from mpslab.output import checkpoint
 
-# What neither the state of a run nor its layout follows from; all else is fixed when it begins.
+# Keys on which neither the state nor the layout of a run depends; all others are fixed when it
+# begins.
 FREE = ("name", "title", "time.end", "scheme.tolerance", "scheme.max_iterations")
 FREE_TABLES = ("parallel", "output")
 
-NOTHING = own.Own(None, None, None)  # given of the user's own: all is looked for
+NOTHING = own.Own(None, None, None)  # nothing is given: all parts of the user's own are looked for
 
-# What could change but for the files that the run has begun.
+# Keys that are fixed only because the run has begun its files, and why.
 HELD = {"output.fields": "the frames of particles.vtkhdf have their fields"}
 
 
@@ -50,7 +51,7 @@ def look(folder, overrides=None, given=NOTHING):
     overrides : dict, optional
         Values that replace those of ``case.toml``, by key, as for `mpslab.load_case`.
     given : mpslab.core.own.Own
-        What the run is given again of the user's own; the rest is looked for.
+        The user's own parts that are given again; the others are looked for.
 
     Returns
     -------

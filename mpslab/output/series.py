@@ -26,7 +26,7 @@ class Series:
     def add(self, row):
         """Add a row, a tuple with an entry for each column."""
         if self._count == len(self._rows):
-            # A new array, for the old one may be in somebody's hands.
+            # A new array, because somebody may hold the old one.
             self._rows = np.concatenate([self._rows, np.zeros_like(self._rows)])
         self._rows[self._count] = row
         self._count += 1

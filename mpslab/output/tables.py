@@ -99,7 +99,7 @@ class CsvTable:
             self.flush()
 
     def flush(self):
-        """Hand all rows to the operating system, where a kill of the process spares them."""
+        """Hand all rows to the operating system, so that they survive a kill of the process."""
         self._file.flush()
         self._flushed = monotonic()
 

@@ -18,8 +18,8 @@ A solid is an object with
 `mpslab.solids.solid.Solid` has all of these but the first two, for a solid that keeps nothing, and
 what a run calls: `begin`, `advance`, `push` and `move`.
 
-In a step a solid has the velocity of its whole move in this step, move/dt, and as acceleration the
-change of that velocity since the step before: so solid and water, which the pressure keeps apart,
-agree on where they end. All through the step, therefore, a solid has the velocity of the step, and
-with projection "start" still the place of its beginning.
+In a step the velocity of a solid is that of its whole move in this step, move/dt, and its
+acceleration is the change of this velocity since the step before. So solid and water, which the
+pressure keeps apart, agree on where they are at the end. All through the step, therefore, a solid
+has the velocity of the step, and with projection "start" still the place of its beginning.
 """

@@ -1,8 +1,8 @@
 """How many particles a case has, by arithmetic: nothing is laid out, whatever the size.
 
-The columns of the tank are counted as `filling` and the solids lay them; of very many, some stand
-for all.  The sum is exact but for discs, dips of a staircase, and tanks of very many columns; wall
-that an obstacle covers counts as wall still.
+The columns of the tank are counted as `filling` and the solids lay them out; if there are very
+many, some of them stand for all.  The sum is exact, except for discs, dips of a staircase, and
+tanks with very many columns; a wall that an obstacle covers still counts as wall.
 """
 
 import numpy as np
@@ -95,7 +95,7 @@ def _water(case):
 def _floor(case, behind):
     """Layers of the bed in the section, by kind."""
     spacing, layers = case.particles.spacing, case.particles.layers
-    tail = layers - 1.0  # columns beyond the first behind a wall, where the bed is dummy
+    tail = layers - 1.0  # columns behind the first one of a wall, where the bed is dummy
     ends = tail if case.wavemaker.type != "none" else 2.0 * tail
     if case.particles.bed == "staircase":
         length = round(case.tank.length / spacing)
@@ -157,7 +157,8 @@ def _side(case, behind):
 
 
 def _obstacles(case):
-    """Wall and dummy particles of the obstacles, less what they share, (2,) float64."""
+    """Wall and dummy particles of the obstacles; what two of them share counts once: (2,) float64.
+    """
     spacing, rows = case.particles.spacing, rows_across(case)
     length = round(case.tank.length / spacing)
     total, inner, seen = 0.0, 0.0, []

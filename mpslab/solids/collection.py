@@ -9,22 +9,22 @@ from mpslab.solids import gates, obstacles
 from mpslab.solids.piston import Piston
 from mpslab.solids.tank import Tank
 
-# The name of one's own; without a dot, which parts it from the key of an entry of its state.
+# The name of a user's solid: without a dot, which stands between it and the key of its state.
 OWN_NAME = {**NAME, "forbidden": NAME["forbidden"] + ".", "unit": ""}
 KINDS = (obstacles, gates)  # that a case may have several of, in the order of their bodies
 
 
 def solids_of(case, paddle=None, own=(), backmost=0.0):
-    """The solids of a case: tank, piston, obstacles and gates, and after them one's own.
+    """The solids of a case: tank, piston, obstacles and gates, and after them the user's own.
 
     Parameters
     ----------
     case : mpslab.core.parameters.Case
     paddle : mpslab.solids.paddle.Paddle, optional
-        Motion of the wavemaker; without it the solids can only be laid out.
+        Motion of the wavemaker; without it the solids can be laid out, but not move.
     own : sequence of solids
     backmost : float [m]
-        Least displacement of the piston, where no paddle says it.
+        Least displacement of the piston, where there is no paddle to tell it.
 
     Returns
     -------

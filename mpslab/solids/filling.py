@@ -1,8 +1,8 @@
 """How the water is laid: in columns, each filled by its volume up to the level asked for.
 
-A column whose height is no whole number of spacings takes the next smaller or larger number of
-particles, spread evenly over it; which of both, in turn, so that the columns together hold the
-volume of the water.
+A column whose height is not a whole number of spacings gets the next smaller or the next larger
+number of particles, spread evenly over it. The two take turns, so that the columns together hold
+the volume of the water.
 """
 
 import numpy as np
@@ -11,8 +11,8 @@ from mpslab.core import bed as beds
 from mpslab.core.lattice import between, effective_length, ground, size
 from mpslab.solids import gates, obstacles
 
-# Where a column begins to count, in spacings of volume: rows across the tank differ, and all of
-# them together hold the volume.
+# Share of a particle with which the first column begins: it differs from row to row across the
+# tank, so that all rows together hold the volume.
 PHASES = (0.125, 0.625, 0.375, 0.875)
 ROUND_OFF = 1e-6  # spacings
 TIGHTEST = 0.75  # spacings from particle to particle in a column
@@ -64,7 +64,7 @@ def _box(case, start, end, phase):
 
 def _fill(x, low, first, top, spacing, phase):
     """Particles of columns at x from `low` to `top`, the lowest `first` above low: (n, 2) [m]."""
-    # On a slope the lowest particle is farther up, for its distance counts along the normal.
+    # On a slope the lowest particle is farther up, because its distance is along the normal.
     base = low + first - 0.5 * spacing
     count = _share((top - low) / spacing, (top - base) / spacing, phase)
     pitch = (top - base) / np.maximum(count, 1)
@@ -76,13 +76,14 @@ def _fill(x, low, first, top, spacing, phase):
 
 
 def _share(height, room, phase):
-    """Particles of columns, in their order, (n,) int: what one cannot hold goes to the next.
+    """Numbers of particles of the columns, in their order, (n,) int: what one cannot hold goes to
+    the next.
 
     Parameters
     ----------
     height, room : (n,) float64 [spacings]
-        Of the water that is to be in a column, and of what there is for particles; below 0 where
-        a column is dry.
+        Of the water that is to be in a column, and of the room for particles; below 0 where a
+        column is dry.
     phase : float
         Share of a particle with which the first column begins.
     """
@@ -148,7 +149,7 @@ def _around(case, low, high):
     bottom = max(low[2], beds.lowest(case.tank.bed, first * spacing, last * spacing))
     down = int(np.ceil((high[2] - bottom) / spacing)) + layers
     if np.all(low <= [0.0, 0.0, bottom]) and np.all(high[:2] >= [length * spacing, edge]):
-        down = 0  # wall to wall and down to the bed: there is air above it only
+        down = 0  # from wall to wall and down to the bed: the only air is above it
     x = (np.arange(first, last) + 0.5) * spacing
     y = (np.arange(width) + 0.5) * spacing if case.dim == 3 else np.zeros(1)
     z = high[2] + (np.arange(-down, layers) + 0.5) * spacing

@@ -63,7 +63,7 @@ def build_particles(case, backmost=0.0, own=()):
 
 
 def _water(case, own):
-    """Water of all rows across the tank, displaced at random by a little: (n, 3) [m]."""
+    """Water of all rows across the tank, each particle displaced a little at random: (n, 3) [m]."""
     spacing, flat = case.particles.spacing, case.dim == 2
     sections = [filling.section(case, row) for row in range(1 if flat else len(filling.PHASES))]
     rows = []

@@ -16,13 +16,14 @@ from mpslab.core.particles import FACE, FILLER, FIRST_SOLID, PISTON
 from mpslab.later import scipy
 from mpslab.solids.solid import Solid
 
-NEAR = 2.0  # spacings: water no further off than this presses on a wall at t = 0
+NEAR = 2.0  # spacings: water that is as near as this presses on a wall at t = 0
 
 
 def blocks(case):
     """Low and high corners of the obstacles in whole spacings, (k, 2, 3) float64 [spacings].
 
-    Infinite where a box stands against the bed or a wall, for no water is beyond; so is y in 2-D.
+    Infinite where a box stands against the bed or a wall, because there is no water beyond; in 2-D
+    y is infinite too.
     """
     return _blocks(case.obstacle, case.tank, case.particles.spacing)
 
@@ -37,13 +38,13 @@ def _blocks(boxes, tank, spacing):
 def least_thickness(case):
     """Spacings between faces that both meet water, so that no particle has both in its reach.
 
-    Water stands at the face at the nearest, and a particle k layers below it k + 1/2 off.
+    Water may stand as near as the face; a particle k layers below the face is k + 1/2 from there.
     """
     return 2 * ceil(case.scheme.reach - 0.5)
 
 
 def around(case, start, end):
-    """What the obstacles leave of a box of water from start to end: such boxes, as pairs [m]."""
+    """What the obstacles leave of a box of water from start to end: smaller boxes, as pairs [m]."""
     boxes, spacing = [(start, end)], case.particles.spacing
     for low, high in blocks(case) * spacing:
         boxes = [piece for box in boxes for piece in cut(*box, low, high)]
@@ -51,7 +52,7 @@ def around(case, start, end):
 
 
 class Obstacle(Solid):
-    """A box of the case; of boxes that overlap, the later one has the particles.
+    """A box of the case; where boxes overlap, the particles belong to the later one.
 
     Parameters
     ----------

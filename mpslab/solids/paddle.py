@@ -22,8 +22,8 @@ class Paddle:
     foremost : float [m]
         Largest displacement during the run.
     backmost, farthest : float [m]
-        Smallest and largest displacement of the whole motion, whatever the end of the run: by them
-        the bed is laid, and a run that goes on beyond its end finds the bed that it needs.
+        Smallest and largest displacement of the whole motion, whatever the end of the run: the bed
+        reaches as far, so that a run which goes on beyond its first end has the bed that it needs.
     height : float [m]
         Wave height that the theory expects of this motion; 0 where it says nothing.
     note : str
@@ -49,7 +49,8 @@ class Paddle:
     doubts: tuple = ()
 
     def advance(self, time, dt, readings):
-        """Decide on the move from time to time + dt [s]; a motion known beforehand has none to.
+        """Decide on the move from time to time + dt [s]; a motion known beforehand has nothing to
+        decide.
 
         Parameters
         ----------
@@ -58,7 +59,7 @@ class Paddle:
         """
 
     def state(self):
-        """What a checkpoint keeps of it, a dict; nothing of a motion known beforehand."""
+        """What a checkpoint keeps of it, a dict; empty for a motion known beforehand."""
         return {}
 
     def restore(self, state):
@@ -80,7 +81,7 @@ def from_motion(
         As in `Paddle`.
     whole : (m,) float64 [s], optional
         Times that cover all of the motion: a period after the soft start, or a whole record. Left
-        out where the run's own show all that it ever does.
+        out where `times` show all that it ever does.
     """
     run, always = (motion(t) for t in (times, times if whole is None else whole))
     stroke, foremost = float(np.max(run) - np.min(run)), float(np.max(run))
@@ -97,8 +98,8 @@ def from_motion(
 def sample_times(end: float, period: float, start=0.0, samples=SAMPLES) -> np.ndarray:
     """Times that hold the extremes until `end` [s] of a motion with that period [s].
 
-    The motion is faded in from 0 until `start` [s], so it goes farthest in its last period before
-    the end, or in the first one that is whole: they are as many whatever the end.
+    The motion fades in from 0 until `start` [s], so it goes farthest in its last period before the
+    end, or in the first period after `start`. There are as many times whatever the end.
 
     Returns
     -------

@@ -15,8 +15,8 @@ def names(case):
 def mask(case, particles, name):
     """Which particles a solid or a part of the tank consists of, (n,) bool.
 
-    "tank" is the bed and all walls, "end_wall" what of it is behind the length of the tank, and
-    "bed" what is neither behind nor beside a wall.
+    "tank" is the bed and all walls; "end_wall" is the part of it beyond the length of the tank, and
+    "bed" the part that is neither behind nor beside a wall.
     """
     if name == "piston":
         return particles.body == PISTON

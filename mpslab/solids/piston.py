@@ -7,7 +7,7 @@ from mpslab.core.keys import CaseError, shown
 from mpslab.core.particles import FACE, FILLER, TANK
 from mpslab.solids.solid import Solid
 
-ROOM = 3  # spacings that are left between the piston and an obstacle or a gate
+ROOM = 3  # spacings that must stay between the piston and an obstacle or a gate
 
 
 def make_paddle(case):
@@ -59,7 +59,7 @@ def _end_of_water(tank):
 
 
 def _leave_room(key, value, x, reach):
-    """Refuse the value of a key that puts a solid at x, short of the reach of the piston [m]."""
+    """Refuse the value of a key that puts a solid at x [m], where the piston reaches it."""
     if x < reach:
         raise CaseError(
             f"{key} = {shown(value)}: must be at x >= {reach:.4g} m, {ROOM} spacings ahead of the "
@@ -75,7 +75,7 @@ class Piston(Solid):
     case : mpslab.core.parameters.Case
     tank : mpslab.solids.tank.Tank
     paddle : mpslab.solids.paddle.Paddle or None
-        Motion of the wavemaker; None to lay the piston out only.
+        Motion of the wavemaker; None where the piston is only laid out.
     """
 
     def __init__(self, case, tank, paddle=None):
@@ -135,7 +135,7 @@ class Piston(Solid):
         self.cover(particles, face)
 
     def cover(self, particles, face):
-        """Bed behind the face carries no pressure: else it would tie the corner to p = 0."""
+        """Make the bed behind the face carry no pressure: else it would tie the corner to p = 0."""
         rows = np.flatnonzero((particles.body == TANK) & (particles.position[:, 0] < self.near))
         rows = rows[np.isin(particles.gid[rows], self.bed, kind="sort")]
         behind = particles.position[rows, 0] < face - self.margin

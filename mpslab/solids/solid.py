@@ -12,7 +12,7 @@ class Solid:
     ----------
     motion : as there
     jumps : bool
-        Whether its speed jumps; the water beside it does not feel its acceleration then.
+        Whether its speed jumps; if so, the water beside it does not feel its acceleration.
     """
 
     motion = None

@@ -88,7 +88,8 @@ class Tank(Solid):
         return self.standing(np.vstack(rows), np.concatenate(roles))
 
     def standing(self, section, role):
-        """What of a section does not come too close to bed and lid, with its roles."""
+        """The particles of a section that do not come too close to bed and lid, with their roles.
+        """
         free = lattice.clear(self.case, section, np.vstack([self.floor[0], self.lid[0]]))
         return section[free], role[free]
 
@@ -109,7 +110,7 @@ class Tank(Solid):
         return (1,) if self.has_piston else (-1, 1)
 
     def _smooth_bed(self):
-        """Layers along the bed, the uppermost of faces."""
+        """Layers along the bed; the uppermost one is of faces."""
         case, layers, spacing = self.case, self.case.particles.layers, self.case.particles.spacing
         behind = (layers + self._behind) * spacing
         points = beds.extended(case.tank.bed, behind, layers * spacing)

@@ -13,7 +13,7 @@ import scipy
 
 from mpslab.theory.dispersion import LARGEST_KH, biesel, evanescent, wave_numbers
 
-MODES = 24  # waves near the piston that count
+MODES = 24  # waves near the piston that are taken into account
 SAME = 1e-9  # share in which the squares of two wave numbers differ that count as one
 NODES = 32  # frequencies at which the functions are worked out, to each side of a table
 
@@ -76,7 +76,7 @@ def bound_wave(first, second, sign, depth, gravity):
 
 
 def _once(u, v):
-    """A half where both waves are one: the pair is there once, not twice."""
+    """Factor 1/2 where both waves are the same one: this pair comes once, not twice."""
     return np.where(u.rate == v.rate, 0.5, 1.0)
 
 
@@ -118,7 +118,7 @@ class _Wave:
         return other
 
     def curvature(self, number, rate, gravity):
-        """How much the piston, off its place, sees of the change of velocity along x."""
+        """What the change of velocity along x makes at a piston that is off its place."""
         lack, found = self.q - rate**2 / gravity, 0.0
         for k, p in zip(self.k, self.p, strict=True):
             apart = k**2 - number**2
@@ -175,7 +175,7 @@ def _tables(rate, depth, gravity):
     low, high = rate[0], max(rate[-1], rate[0] * 1.01)
     nodes = np.linspace(low, high, NODES)
     u, v = (part.ravel() for part in np.meshgrid(nodes, nodes, indexing="ij"))
-    # No wave is its own partner here: the two lie a little to either side.
+    # A wave must not meet itself here: the two frequencies lie a little to either side.
     apart = np.where(u == v, 1e-4, 0.0) * nodes[0]
     larger, smaller = np.maximum(u, v) + apart, np.minimum(u, v) - apart
     tables = []

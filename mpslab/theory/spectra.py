@@ -1,7 +1,7 @@
 """Spectra of a sea: variance of the surface by frequency, S(f) [m2/Hz].
 
-Every spectrum is made with a significant height Hm0 = 4 sqrt(m0) over all frequencies: the shapes
-of the books name heights of other kinds, and differ by up to 9 %.
+Every spectrum is made so that Hm0 = 4 sqrt(m0) over all frequencies is the height asked for: the
+formulas in books mean heights of other kinds, and differ by up to 9 %.
 """
 
 import numpy as np
@@ -9,7 +9,7 @@ import numpy as np
 from mpslab.theory.dispersion import LARGEST_KH, wave_numbers
 
 NAMES = ("jonswap", "pierson_moskowitz", "tma")
-# Frequencies over that of the peak that hold all of a spectrum but a millionth.
+# Frequencies over that of the peak, which hold a spectrum except for a millionth.
 ALL = np.geomspace(0.2, 40.0, 8001)
 
 

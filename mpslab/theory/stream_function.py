@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-TERMS = (16, 32, 64, 128)  # of the series: the first that suffice
+TERMS = (16, 32, 64, 128)  # of the series: the first of these that is enough
 SMALLEST = 3e-4  # share of the height that the last term may have, and a fall that rises again
 LONGEST = 100.0  # wavelengths over depth, by linear theory: beyond, crests are solitary waves
 STEPS = 8  # in which the height grows from a linear wave to the highest there is
@@ -46,7 +46,7 @@ class Wave:
     speed : (n,) float64 [m/s]
         Of the velocity at the bed: u = speed[j - 1] cosh(j k z) cos j k x, z from the bed.
     current : float [m/s]
-        Mean velocity at a place below the troughs, negative: what comes back of the drift.
+        Mean velocity at a place below the troughs; negative: it carries back what drifts forward.
     """
 
     height: float
@@ -126,7 +126,9 @@ def _wave(height, period, depth, gravity, closed, terms):
 
 
 def _grow(goal, tau, terms, closed, depth):
-    """Unknowns of a wave, from ones that are lower, in steps that halve where Newton's fails."""
+    """Unknowns of a wave, found by way of lower ones, in steps that are halved where Newton's
+    method fails.
+    """
     step = highest(_linear_length(tau), 1.0) / STEPS
     reached, state = 0.0, _linear(0.0, tau, terms)
     slope = _linear(1.0, tau, terms) - state

@@ -11,9 +11,9 @@ DISTANCE = {2: 0.5, 3: 0.8}  # [spacings] where the case has none
 def stabilise(near, dt, pace, scheme):
     """Let pairs below ``collision_distance`` bounce (Shibata, Murotani & Koshizuka 2014).
 
-    Where the water is so thin that it has no pressure, this alone holds it above the bed.  Half-way
-    between two particles of a wall, or in 3-D in the middle of four, it is 0.5 and 1/sqrt(2)
-    spacings from each: with less, it slips through.
+    Where the water is so thin that it has no pressure, only this model holds it above the bed.  A
+    particle half-way between two particles of a wall is 0.5 spacings from each, in 3-D in the
+    middle of four 1/sqrt(2) spacings: with a smaller distance than that it slips through.
     """
     particles, stencil = near.particles, near.stencil
     closest = (scheme.collision_distance or DISTANCE[stencil.dim]) * stencil.spacing

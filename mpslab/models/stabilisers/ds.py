@@ -5,7 +5,7 @@ import numpy as np
 from mpslab.kernels import repulsion
 
 STAGE = "corrected"
-PASSES = 2  # the second parts those whom the first pushed together; a ghost is right after one
+PASSES = 2  # the second parts pairs that the first pushed together; ghosts are right after one
 
 
 def stabilise(near, dt, pace, scheme):

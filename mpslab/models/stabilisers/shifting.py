@@ -1,4 +1,4 @@
-"""Particle shifting: move particles from where they crowd to where they lack."""
+"""Particle shifting: move particles from where they are dense to where they are sparse."""
 
 import numpy as np
 
@@ -24,8 +24,9 @@ def stabilise(near, dt, pace, scheme):
 def shift(near, matrices, factor, paces):
     """Move the water by -factor sum_j (C_i + D_j)/2 r_ij w/r^2, summed where it is now.
 
-    Neither the surface nor what is beside it moves.  Sums of where the pressure acted would do for
-    waves, but not where water is thrown against a wall: there they throw particles together.
+    Neither the surface nor the particles beside it move.  Sums at the places where the pressure
+    acted would be good enough for waves, but not where water is thrown against a wall: there they
+    throw particles together.
 
     Parameters
     ----------
