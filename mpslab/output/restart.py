@@ -10,7 +10,9 @@ from mpslab.core.parameters import LISTS, TABLES, Case
 from mpslab.output import checkpoint
 
 # What neither the state of a run nor its layout follows from; all else is fixed when it begins.
-FREE = ("name", "title", "time.end", "scheme.tolerance", "scheme.max_iterations")
+FREE = (
+    "name", "title", "time.end", "scheme.solver", "scheme.tolerance", "scheme.max_iterations",
+)  # fmt: skip
 FREE_TABLES = ("parallel", "output")
 
 # What could change but for the files that the run has begun.
