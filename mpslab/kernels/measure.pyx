@@ -42,6 +42,16 @@ def measure(const double[:, ::1] position, const signed char[::1] role, const in
             begin = end
 
 
+def weigh(const int[::1] row, stencil, float[:, ::1] offset, const float[::1] inverse,
+          double[:, ::1] first, double[:, :, ::1] second):
+    """As `measure`, where the geometry of the pairs is there and the weights are to be others."""
+    cdef float radius = stencil.radius
+    cdef Py_ssize_t i
+    with nogil:
+        for i in range(row.shape[0] - 1):
+            add_up(i, row, radius, offset, inverse, first, second)
+
+
 cdef inline int part(Py_ssize_t i, const signed char[::1] role, const int[::1] row,
                      int[::1] other, int[::1] behind) noexcept nogil:
     """Water first, then solids, each in the order of the list; returns where the solids begin.

@@ -275,7 +275,7 @@ def measure(flow, with_gradient=True):
     everywhere = np.ones(len(flow.particles), bool) if flow.extrapolates else None
     flow.near.measure(flow.particles, flow.neighbors, everywhere)
     if with_gradient and flow.near_gradient is not flow.near:
-        flow.near_gradient.measure(flow.particles, flow.neighbors, everywhere)
+        flow.near_gradient.measure_as(flow.near)
     flow.particles.number_density[:] = flow.near.number_density
 
 
