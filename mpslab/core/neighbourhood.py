@@ -86,11 +86,11 @@ class Neighbourhood:
         self.__dict__.update(near.__dict__)
         self.stencil, self.offset = mine
         if len(self.offset) != len(near.offset):
-            self.offset = np.empty_like(near.offset)
-        pairs = len(near.other)
-        self.offset[:pairs] = near.offset[:pairs]
+            self.offset = np.zeros_like(near.offset)
         self.first, self.second = np.empty_like(near.first), np.empty_like(near.second)
-        measure.weigh(self.row, self.stencil, self.offset, self.inverse, self.first, self.second)
+        measure.weigh(
+            self.row, self.stencil, near.offset, self.inverse, self.offset, self.first, self.second
+        )
         self._correction = self._lean = None
         return self
 
