@@ -8,7 +8,7 @@ from pathlib import Path
 import matplotlib
 
 from mpslab.analysis.pictures import STYLE, save_small
-from paper_figures import agreement, kept, runs
+from paper_figures import agreement, kept, runs, samples
 from paper_figures.keep import keep
 
 DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -33,7 +33,7 @@ def _parser():
     parser.add_argument("--only", action="append", metavar="NAME",
                         help="a figure, with the runs that it needs, or a run; may be given "
                         f"several times: {', '.join(FIGURES)}, "
-                        f"{', '.join(runs.read_runs('full'))}")
+                        f"{', '.join((*runs.read_runs('full'), *samples.read_methods()))}")
     parser.add_argument("--results", type=Path, metavar="DIR",
                         help="folder of the kept results; those of the repository if left out, "
                         "with --run OUT/results")
@@ -47,11 +47,11 @@ def main(arguments=None):
     0: done; 1: a run has stopped before its end; 2: bad input; 130: Ctrl-C.
     """
     options = _parser().parse_args(arguments)
-    table = runs.read_runs(options.size)
-    unknown = set(options.only or ()) - {*FIGURES, *table}
+    table, methods = runs.read_runs(options.size), samples.read_methods()
+    names = (*FIGURES, *table, *methods)
+    unknown = set(options.only or ()) - set(names)
     if unknown:
-        return _refuse(f"--only {', '.join(sorted(unknown))}: must be out of "
-                       f"{', '.join((*FIGURES, *table))}")  # fmt: skip
+        return _refuse(f"--only {', '.join(sorted(unknown))}: must be out of {', '.join(names)}")
     figures = [name for name in FIGURES if not options.only or name in options.only]
     out = options.out or Path("runs") / "paper_figures" / options.size
     results = options.results or (out if options.run else HERE) / "results"
@@ -59,8 +59,10 @@ def main(arguments=None):
         results /= options.size
     try:
         if options.run:
-            _make(_wanted(table, figures, options.only), out, results)
-        return _draw(figures, kept.read(results, table), out)
+            wanted = {name for figure in figures for name in _needs(figure)}
+            wanted |= set(options.only or ())
+            _make(wanted, table, methods, out, results)
+        return _draw(figures, kept.read(results, table, methods), out)
     except runs.Failed as error:
         print(f"paper_figures: {error}", file=sys.stderr)
         return FAILED
@@ -79,21 +81,21 @@ def _needs(name):
     return importlib.import_module(f"paper_figures.{name}").RUNS
 
 
-def _wanted(table, figures, only):
-    """The runs that were named, or that the figures need."""
-    names = {name for figure in figures for name in _needs(figure)} | set(only or ())
-    return [run for name, run in table.items() if name in names]
-
-
-def _make(wanted, out, results):
-    """Make runs one after the other, and keep what the figures need of each."""
-    for number, run in enumerate(wanted, 1):
+def _make(wanted, table, methods, out, results):
+    """Make runs one after the other, then the samples, and keep what the figures need of each."""
+    new = [m for name, m in methods.items()
+           if name in wanted and not (results / name / samples.TABLE).exists()]  # fmt: skip
+    if new:
+        wanted = wanted | {runs.SAMPLED}
+    rows = [run for name, run in table.items() if name in wanted]
+    for number, run in enumerate(rows, 1):
         target = results / run.name
-        if (target / "water.npz").exists():
-            continue
-        print(f"\nRun {number} of {len(wanted)}: {run.name}, {run.title}", flush=True)
-        runs.make(run, out / run.name)
-        keep(out / run.name, target, run)
+        if not (target / "water.npz").exists():
+            print(f"\nRun {number} of {len(rows)}: {run.name}, {run.title}", flush=True)
+            runs.make(run, out / run.name)
+            keep(out / run.name, target, run)
+    if new:
+        samples.take(new, out, results)
 
 
 def _draw(figures, found, out):

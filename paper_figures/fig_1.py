@@ -4,7 +4,7 @@ from matplotlib.figure import Figure
 
 from paper_figures.panels import add_u_bar, draw_scene, draw_side, wave_of
 
-RUNS = ("mps", "scg", "standard")
+RUNS = ("mps", "cmps", "standard")
 BEFORE, JET = 1.0, 1.04  # [s]
 LIMITS = (0.24, 0.36), (0.0, 0.065)  # [m]
 CAPTION = (

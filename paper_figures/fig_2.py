@@ -4,7 +4,7 @@ from matplotlib.figure import Figure
 
 from paper_figures.panels import add_u_bar, draw_side, wave_of
 
-RUNS = ("mps", "scg", "standard", "fine")
+RUNS = ("mps", "cmps", "standard", "fine")
 TOUCH_DOWN, SPLASH_UP = 1.12, 1.2  # [s]
 LIMITS = (0.30, 0.48), (0.005, 0.07)  # [m]
 CAPTION = "Touch-down of the jet and splash-up: particles coloured by u"

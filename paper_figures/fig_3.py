@@ -4,8 +4,8 @@ from matplotlib.figure import Figure
 
 from paper_figures.panels import LINES, add_u_bar, draw_scene, name_of, wave_of
 
-RUNS = ("scg", "mps", "standard")
-SEEN = ("scg", "standard")
+RUNS = ("cmps", "mps", "standard")
+SEEN = ("cmps", "standard")
 ALONG = 0.30, 0.46  # [m]
 TIMES = (1.09, 1.16, 1.2)  # [s]
 CAPTION = "Fingers: the surface at the jet and after it, coloured by u, and its variance across"

@@ -16,12 +16,12 @@ from mpslab.run.flow import slabs_of
 from mpslab.solids.piston import make_paddle
 from paper_figures.measures import measure
 
-TIMES = (1.0, 1.04, 1.09, 1.12, 1.16, 1.2)  # [s] of the snapshots
+TIMES = (1.0, 1.04, 1.09, 1.12, 1.16, 1.2)  # [s] of the snapshots, where the wave is not late
 CUTS = (0.0, 0.88, 1.12)  # [s] of figure 4
 RANKS = 8  # of figure 4
 METHODS = ("static", "centroid", "optimal")
 WINDOW = (0.22, 0.50)  # [m] along the tank, of the snapshots: where the waves break
-FIRST = 0.64  # share of the run, 0.8 s, from which measures are taken: the first crest is steep
+FIRST = 0.57  # share of the run, 0.8 s, from which measures are taken: the first crest is steep
 STEPS = {"step": "{:.0f}", "time [s]": "{:.6f}", "iterations": "{:.0f}", "seconds": "{:.4f}"}
 RECORD = ("versions", "machine", "commit", "started", "ended", "wall_time [s]", "resumed",
           "particles")  # fmt: skip
@@ -43,35 +43,42 @@ def keep(folder, target, run):
     """
     target.mkdir(parents=True, exist_ok=True)
     shutil.copy(folder / "case.toml", target)
-    record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
-    record = {"ranks": run.ranks} | {name: record[name] for name in RECORD}
-    (target / "run.json").write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+    keep_record(folder, target, ranks=run.ranks, late=run.late)
     _keep_steps(folder, target)
     if run.ranks > 1:
         shutil.copy(folder / "decomposition.csv", target)
-    _keep_water(folder, target, TIMES if run.water else ())
+    _keep_water(folder, target, run.late)
+
+
+def keep_record(folder, target, **more):
+    """Write ``run.json``: what is kept of the record of a run, and more."""
+    record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
+    record = more | {name: record[name] for name in RECORD}
+    (target / "run.json").write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
 
 
 def _keep_steps(folder, target):
     steps = read_table(folder / "steps.csv")
     rows = zip(*(map(form.format, steps[name]) for name, form in STEPS.items()), strict=True)
-    _write(target / "steps.csv", STEPS, rows)
+    write_table(target / "steps.csv", STEPS, rows)
 
 
-def _write(path, header, rows):
+def write_table(path, header, rows):
+    """Write rows of texts as CSV."""
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(header)
         table.writerows(rows)
 
 
-def _keep_water(folder, target, times):
+def _keep_water(folder, target, late):
     """Measures of the frames, snapshots of some, and who would own what in three."""
     case = load_case(folder / "case.toml")
     slabs = slabs_of(case, make_paddle(case))
     spacing, width = case.particles.spacing, case.tank.width
     path = folder / "particles.vtkhdf"
-    near, tank = (_nearest(vtkhdf.read_times(path), some) for some in (times, CUTS))
+    frames = vtkhdf.read_times(path)
+    near, tank = _nearest(frames, TIMES, late), _nearest(frames, CUTS)
     rows, arrays = [], {}
     for index, (time, frame) in enumerate(vtkhdf.read_frames(path)):
         wet = frame["kind"] == FLUID
@@ -85,18 +92,19 @@ def _keep_water(folder, target, times):
             middle = np.abs(place[:, 1] - 0.5 * width + 0.25 * spacing) < 0.5 * spacing
             _pack(arrays, f"tank {name}", time, place[middle], velocity[middle, 0])
             arrays |= _cuts(name, frame, slabs)
-    _write(target / "series.csv", rows[0], [[f"{v:.6g}" for v in row.values()] for row in rows])
+    texts = [[f"{value:.6g}" for value in row.values()] for row in rows]
+    write_table(target / "series.csv", rows[0], texts)
     np.savez_compressed(target / "water.npz", **arrays)
 
 
-def _nearest(frames, times):
-    """Which of the times [s], as texts, each frame is next to.
+def _nearest(frames, times, late=0.0):
+    """Which of the times [s], as texts, each frame is next to, all so much later [s].
 
     A frame is taken after the step that reaches its time.
     """
     near = [[] for _ in frames]
     for time in times:
-        near[np.argmin(np.abs(frames - time))].append(f"{time:.2f}")
+        near[np.argmin(np.abs(frames - time - late))].append(f"{time:.2f}")
     return near
 
 

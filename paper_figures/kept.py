@@ -1,5 +1,6 @@
 """The kept results of the runs, as the figures read them."""
 
+import json
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -9,6 +10,7 @@ import numpy as np
 from mpslab import open_run
 from mpslab.output.tables import read_table
 from paper_figures.keep import LEVELS, MILLIMETRE
+from paper_figures.samples import TABLE, TOPS
 
 
 @dataclass(frozen=True)
@@ -57,9 +59,9 @@ class Kept:
         return self.case["particles"]["spacing"]
 
     @property
-    def end(self):
-        """Time of its end [s]."""
-        return self.case["time"]["end"]
+    def late(self):
+        """By how much its wave breaks later than the paper's [s]."""
+        return self.record["late"]
 
     @property
     def width(self):
@@ -92,7 +94,7 @@ class Kept:
             return dict(file)
 
     def near(self, time):
-        """The water where the waves break at one of `paper_figures.keep.TIMES`."""
+        """The water where the waves break at one of `paper_figures.keep.TIMES`, or later."""
         return self._water("near", time)
 
     def tank(self, time):
@@ -118,10 +120,62 @@ class Kept:
         return Water(time, position, self._arrays[f"{name} u"] * MILLIMETRE)
 
 
-def read(folder, runs):
-    """The kept results of the runs that have any, by their names."""
-    return {
+class Sampled:
+    """What a method did from each of the states of a run, as `paper_figures.samples` has kept it.
+
+    Parameters
+    ----------
+    folder : Path
+    title : str
+        What the method is called in the figures.
+    """
+
+    def __init__(self, folder, title):
+        self.folder, self.title = Path(folder), title
+
+    @cached_property
+    def record(self):
+        """How it was made: ranks, machine, commit, particles; a dict."""
+        return json.loads((self.folder / "run.json").read_text(encoding="utf-8"))
+
+    @cached_property
+    def steps(self):
+        """Columns from [s] (the state), step, time [s], iterations and seconds, (steps,) each."""
+        return read_table(self.folder / TABLE)
+
+    @cached_property
+    def states(self):
+        """Times of the states [s], (k,)."""
+        return np.unique(self.steps["from [s]"])
+
+    def middle(self, column):
+        """Median of a column from each of the states on, (k,).
+
+        Other work on the machine strikes single steps.
+        """
+        each = [self.steps[column][self.steps["from [s]"] == state] for state in self.states]
+        return np.array([np.median(one) for one in each])
+
+    def over(self, column, steps):
+        """A column for steps (n,), between the medians from the states; as at the next beyond."""
+        return np.interp(steps, self.middle("step"), self.middle(column))
+
+    @cached_property
+    def tops(self):
+        """Height of the water in columns along the tank after the steps from each state, (k, n)."""
+        with np.load(self.folder / TOPS) as file:
+            return np.array([file[f"{state:.2f}"] for state in self.states])
+
+
+def read(folder, runs, methods):
+    """The kept results of the runs and methods that have any, by their names."""
+    found = {
         name: Kept(folder / name, run.title)
         for name, run in runs.items()
         if (folder / name / "water.npz").exists()
+    }
+    return found | {
+        name: Sampled(folder / name, method.title)
+        for name, method in methods.items()
+        if (folder / name / TABLE).exists()
     }

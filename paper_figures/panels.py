@@ -23,6 +23,8 @@ LINES = {
     "piccg": {"color": "#d55e00", "linestyle": "-"},
     "scg": {"color": "#0072b2", "linestyle": "--"},
     "ddd": {"color": "#009e73", "linestyle": (0, (4, 2))},
+    "deflated": {"color": "#56b4e9", "linestyle": ":"},
+    "cmps": {"color": "#d55e00", "linestyle": "--"},
     "mps": {"color": "#cc79a7", "linestyle": "-."},
     "standard": {"color": "#0072b2", "linestyle": "-"},
     "fine": {"color": "#56b4e9", "linestyle": ":"},

@@ -1,6 +1,7 @@
 """The runs behind the figures: which there are, and how they are made."""
 
 import json
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -13,6 +14,9 @@ from mpslab.core.keys import CaseError
 CASE = "plunging_breaker"
 TABLE = Path(__file__).parent / "runs.toml"
 SIZES = ("full", "quick")
+SAMPLED = "cmps"  # the run that leaves states for `paper_figures.samples`
+# What a state is gone on with from; the frames of the run are not needed.
+STATE = ("case.toml", "run.json", "checkpoint.h5", "*.csv")
 
 
 class Failed(Exception):
@@ -29,15 +33,18 @@ class Run:
     ranks : int
     changes : dict of str to value
         The keys in which its case differs from plunging_breaker.
-    water : bool
-        Whether the water near the wave is kept.
+    late : float [s]
+        By how much its wave breaks later than the paper's; the figures show it as much later.
+    stops : tuple of float [s]
+        Times at which its state is left in a folder, for `paper_figures.samples`.
     """
 
     name: str
     title: str
     ranks: int
     changes: dict
-    water: bool
+    late: float = 0.0
+    stops: tuple = ()
 
     @property
     def case(self):
@@ -47,21 +54,32 @@ class Run:
 
 def read_runs(size):
     """The runs of a size, "full" or "quick", by their names."""
-    table = tomllib.loads(TABLE.read_text(encoding="utf-8"))
+    table = read_table()
     return {
         name: Run(
             name,
             given["title"],
             given["ranks"],
             table["all"] | table["size"][size] | given["set"] | given.get(size, {}),
-            given.get("water", True),
+            given.get("late", {}).get(size, 0.0),
+            tuple(table["samples"]["at"]) if name == SAMPLED else (),
         )
         for name, given in table["run"].items()
     }
 
 
+def read_table():
+    """``runs.toml`` as it stands."""
+    return tomllib.loads(TABLE.read_text(encoding="utf-8"))
+
+
+def state_of(folder, time):
+    """Folder of the state that a run has left at one of its stops [s]."""
+    return folder.with_name(f"{folder.name} at {time:.2f}")
+
+
 def is_done(run, folder):
-    """Whether the folder holds this run, at its end.
+    """Whether the folder holds this run, at its end, and all its states.
 
     Raises Failed if it holds another one.
     """
@@ -87,15 +105,40 @@ def make(run, folder):
     """
     if is_done(run, folder):
         return
-    line = [sys.executable, "-m", "mpslab.tank", "--no-pictures"]
-    line += ["--ranks", str(run.ranks)] if run.ranks > 1 else []
+    for time in run.stops:
+        state = state_of(folder, time)
+        if not state.exists():
+            _go_on(run, folder, "--until", str(time))
+            _leave(folder, state)
+    _go_on(run, folder)
+
+
+def _go_on(run, folder, *until):
     if (folder / "checkpoint.h5").exists():
-        line += ["--resume", str(folder)]
+        what = ["--resume", str(folder)]
     else:
-        line += [CASE, "--out", str(folder)]
-        line += [f"--set={key}={_toml(value)}" for key, value in run.changes.items()]
-    if subprocess.run(line, check=False).returncode:
-        raise Failed(f"{folder}: '{run.name}' has stopped; the same command goes on with it")
+        what = [CASE, "--out", str(folder)]
+        what += [f"--set={key}={_toml(value)}" for key, value in run.changes.items()]
+    tank(run.ranks, *what, *until)
+
+
+def tank(ranks, *arguments):
+    """Call ``python -m mpslab.tank`` on so many ranks; Failed if it ends before its time."""
+    line = [sys.executable, "-m", "mpslab.tank", "--no-pictures"]
+    line += ["--ranks", str(ranks)] if ranks > 1 else []
+    if subprocess.run([*line, *arguments], check=False).returncode:
+        raise Failed(f"'{' '.join(arguments)}' has stopped; the same command goes on with it")
+
+
+def _leave(folder, state):
+    """Copy the state of a run; the folder has its name when it is whole."""
+    draft = state.with_name(state.name + ".part")
+    shutil.rmtree(draft, ignore_errors=True)
+    draft.mkdir()
+    for pattern in STATE:
+        for file in folder.glob(pattern):
+            shutil.copy(file, draft)
+    draft.rename(state)
 
 
 def _toml(value):

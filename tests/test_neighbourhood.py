@@ -229,3 +229,18 @@ def test_forces_on_water_and_solids_cancel_to_the_rounding_of_doubles(dim):
         on_solids -= near.correction[i, :, :3] @ (both @ pull) * dim / near.stencil.n0
     assert np.abs(on_solids).max() > 0.0
     assert np.abs(out.sum(axis=0) + on_solids).max() < 1e-14 * np.abs(out).sum()
+
+
+@pytest.mark.parametrize("dim", DIMS)
+def test_pairs_taken_from_another_radius_are_as_those_measured(dim):
+    near, _ = setting(dim)
+    other = make_stencil(dim, 1.0, 2.6, near.stencil.width)
+    taken = Neighbourhood(other).measure_as(near)
+    measured = near_of(near.particles, dim, width=near.stencil.width, reach=2.6, radius=2.6)
+    pairs = len(measured.other)
+    assert np.array_equal(taken.other, measured.other)
+    assert np.array_equal(taken.offset[:pairs], measured.offset[:pairs])
+    assert np.array_equal(taken.first, measured.first)
+    assert np.array_equal(taken.correction, measured.correction)
+    # The neighbourhood that they were taken from keeps its own.
+    assert not np.array_equal(near.offset[:pairs, 3], taken.offset[:pairs, 3])

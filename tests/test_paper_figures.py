@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -19,9 +20,10 @@ from paper_figures import (
     kept,
     measures,
     runs,
+    samples,
     table_1,
 )
-from paper_figures.keep import CUTS, METHODS, RANKS, TIMES, keep
+from paper_figures.keep import CUTS, METHODS, RANKS, TIMES, keep, write_table
 
 D0 = 0.002
 SIZE = "quick"  # the size of which all runs are kept
@@ -82,21 +84,22 @@ def test_layers_share_out_all_particles():
 @pytest.mark.parametrize("size", runs.SIZES)
 def test_all_runs_are_cases_of_the_papers_tank(size):
     table = runs.read_runs(size)
-    assert set(table) == {"iccg", "piccg", "scg", "ddd", "mps", "standard", "fine"}
+    assert set(table) == {"cmps", "mps", "standard", "fine"}
     for run in table.values():
         case = run.case
         assert (case.tank.length, case.tank.depth) == (0.8, 0.04)
-        assert size == "quick" or case.time.end == 1.25
+        assert case.time.end == 1.4
         assert (case.wavemaker.height, case.wavemaker.period) == (0.0196, 0.777)
     assert table["mps"].case.scheme.gradient == "mps"
-    assert {table[name].case.scheme.gradient for name in ("iccg", "piccg", "scg", "ddd")} == {
-        table["iccg"].case.scheme.gradient
-    }
+    assert table["cmps"].case.scheme.recipe == "paper"
+    # Each state of the run that is sampled is one that it comes by.
+    assert max(table[runs.SAMPLED].stops) < table[runs.SAMPLED].case.time.end
+    assert not any(run.stops for name, run in table.items() if name != runs.SAMPLED)
 
 
 def test_all_runs_that_a_figure_needs_are_in_the_table():
     for figure in FIGURES.values():
-        assert set(figure.RUNS) <= set(runs.read_runs("full"))
+        assert set(figure.RUNS) <= {*runs.read_runs("full"), *samples.read_methods()}
 
 
 @pytest.fixture(scope="module")
@@ -107,7 +110,7 @@ def tiny(tmp_path_factory):
                "output.interval": 0.001, "scheme.settling": 0}  # fmt: skip
     simulation = Simulation(load_case("plunging_breaker", changes), folder / "run")
     simulation.run()
-    keep(folder / "run", folder / "kept", runs.Run("tiny", "tiny", 1, changes, True))
+    keep(folder / "run", folder / "kept", runs.Run("tiny", "tiny", 1, changes))
     return simulation, kept.Kept(folder / "kept", "tiny"), folder / "run"
 
 
@@ -133,8 +136,8 @@ def test_what_is_kept_is_the_run(tiny):
 
 def test_a_folder_with_another_run_is_refused(tiny):
     folder = tiny[2]
-    with pytest.raises(runs.Failed, match="holds another run than 'piccg'"):
-        runs.is_done(runs.read_runs("full")["piccg"], folder)
+    with pytest.raises(runs.Failed, match="holds another run than 'cmps'"):
+        runs.is_done(runs.read_runs("full")["cmps"], folder)
 
 
 # Figures
@@ -143,7 +146,7 @@ def test_a_folder_with_another_run_is_refused(tiny):
 @pytest.fixture(scope="module")
 def found():
     """The kept results in the repository."""
-    return kept.read(RESULTS, runs.read_runs(SIZE))
+    return kept.read(RESULTS, runs.read_runs(SIZE), samples.read_methods())
 
 
 def words(figure):
@@ -170,9 +173,10 @@ def test_slices_show_each_run_at_both_times_on_one_scale(found, name):
     figure = module.draw(found)
     times = (fig_1.BEFORE, fig_1.JET) if name == "fig_1" else (fig_2.TOUCH_DOWN, fig_2.SPLASH_UP)
     titles = [ax.get_title(loc="left") for ax in panels(figure)]
-    for recipe in ("MPS", "CMPS", "standard"):
+    for recipe, run in (("MPS", "mps"), ("CMPS", "cmps"), ("standard", "standard")):
         for time in times:
-            assert any(t.startswith(f"{recipe},") and f"t = {time:.2f} s" in t for t in titles)
+            at = f"t = {time + found[run].late:.2f} s"
+            assert any(t.startswith(f"{recipe},") and at in t for t in titles)
     flat = [ax for ax in panels(figure) if ax.axison]  # not those in perspective
     assert len({(ax.get_xlim(), ax.get_ylim()) for ax in flat}) == 1
     assert any("u [m/s]" in text for text in words(figure))
@@ -189,22 +193,36 @@ def test_figure_4_tells_the_share_of_each_rank(found):
         assert len(shares) == RANKS and sum(shares) == pytest.approx(100.0, abs=0.5)
 
 
-def test_figure_5_has_a_line_for_each_run_in_both_panels(found):
+def test_figure_5_has_a_line_for_each_method_in_both_panels(found):
     seconds, iterations = panels(fig_5.draw(found))
     for ax, column in ((seconds, "seconds"), (iterations, "iterations")):
-        assert [line.get_label() for line in ax.lines] == [found[n].title for n in fig_5.RUNS]
-        for name, line in zip(fig_5.RUNS, ax.lines, strict=True):
-            steps = found[name].steps
-            assert np.median(line.get_ydata()) == pytest.approx(np.median(steps[column]), rel=0.1)
+        lines = [line for line in ax.lines if not line.get_label().startswith("_")]
+        assert [line.get_label() for line in lines] == [found[n].title for n in fig_5.RUNS]
+        for name, line in zip(fig_5.RUNS, lines, strict=True):
+            assert np.array_equal(line.get_ydata(), found[name].middle(column))
     assert "[s]" in seconds.get_ylabel()
 
 
 def test_table_1_adds_up(found):
-    for name, row in zip(table_1.RUNS, table_1.rows(found), strict=True):
-        steps, net, each = (float(cell.replace(",", "")) for cell in row[3:6])
-        assert steps == len(found[name].steps["step"])
-        assert net == pytest.approx(each * steps, rel=0.02)
+    steps = found["cmps"].steps
+    to_end = int((steps["time [s]"] <= table_1.END).sum())
+    for name, row in zip(table_1.METHODS, table_1.rows(found), strict=False):
+        count, net, each = (float(cell.replace(",", "")) for cell in row[3:6])
+        assert count == to_end
+        assert net == pytest.approx(each * count, rel=0.02)
+        middle = found[name].middle("seconds")
+        assert middle.min() - 6e-4 <= each <= middle.max() + 6e-4
     assert table_1.rows(found)[0][6] == "1.00"
+
+
+def test_a_method_costs_between_the_medians_of_its_samples(tmp_path):
+    rows = [(at, 10 * at + k, 0.0, 5, cost) for at, cost in ((1.0, 2.0), (3.0, 4.0))
+            for k in (-1, 0, 1)]  # fmt: skip
+    table = tmp_path / samples.TABLE
+    write_table(table, samples.HEADER, [[f"{value:g}" for value in row] for row in rows])
+    method = kept.Sampled(tmp_path, "method")
+    assert method.middle("seconds").tolist() == [2.0, 4.0]
+    assert method.over("seconds", np.array([1, 10, 20, 30, 99])).tolist() == [2, 2, 3, 4, 4]
 
 
 def test_the_papers_times_a_step_follow_from_its_totals():
@@ -219,12 +237,10 @@ def test_the_papers_times_a_step_follow_from_its_totals():
 # Agreement
 
 
-def test_every_claim_that_the_runs_reach_is_judged_and_what_is_kept_is_todays(found, tmp_path):
+def test_every_claim_is_judged_and_what_is_kept_is_todays(found, tmp_path):
     path = agreement.write(found, tmp_path)
     rows = json.loads(path.read_text(encoding="utf-8"))
-    reached = [until for names, until, _ in agreement.CLAIMS
-               if all(found[name].end >= until for name in names)]  # fmt: skip
-    assert len(rows) == len(reached) >= 13
+    assert len(rows) == len(agreement.CLAIMS) >= 13
     for row in rows:
         assert list(row) == ["claim", "paper", "ours", "agrees", "note"]
         assert isinstance(row["agrees"], bool) and all(row[key] for key in ("claim", "ours"))
@@ -233,23 +249,27 @@ def test_every_claim_that_the_runs_reach_is_judged_and_what_is_kept_is_todays(fo
 
 
 class Fake:
-    """A run with steps of a given cost."""
+    """A run, and a method, with steps of a given cost."""
 
     def __init__(self, iterations, seconds, ranks=1):
-        self.steps = {"step": np.arange(1, 101), "iterations": np.full(100, iterations),
-                      "seconds": np.full(100, seconds)}  # fmt: skip
+        self.steps = {"step": np.arange(1, 101), "time [s]": np.linspace(0.0, 1.2, 100)}
+        self.cost = {"iterations": iterations, "seconds": seconds}
         self.record = {"ranks": ranks, "machine": {"cores": 2, "cpu": "a processor"}}
+
+    def over(self, column, steps):
+        return np.full(len(steps), self.cost[column])
 
 
 def test_claims_on_cost_turn_with_the_numbers():
-    assert agreement.iterations(Fake(10, 1.0), Fake(30, 1.0)).agrees
-    assert not agreement.iterations(Fake(10, 1.0), Fake(15, 1.0)).agrees
-    assert agreement.time_of_solvers(Fake(10, 1.0), Fake(30, 1.1)).agrees
-    assert not agreement.time_of_solvers(Fake(10, 1.0), Fake(30, 1.5)).agrees
-    assert agreement.saved(Fake(10, 1.0), Fake(10, 0.9)).agrees
-    assert not agreement.saved(Fake(10, 1.0), Fake(10, 1.0)).agrees
-    assert agreement.speedup(Fake(10, 3.0), Fake(10, 2.0, ranks=2)).agrees
-    assert not agreement.speedup(Fake(10, 2.5), Fake(10, 2.0, ranks=2)).agrees
+    run = Fake(0, 0.0)
+    assert agreement.iterations(Fake(10, 1.0), Fake(30, 1.0), run).agrees
+    assert not agreement.iterations(Fake(10, 1.0), Fake(15, 1.0), run).agrees
+    assert agreement.time_of_solvers(Fake(10, 1.0), Fake(30, 1.1), run).agrees
+    assert not agreement.time_of_solvers(Fake(10, 1.0), Fake(30, 1.5), run).agrees
+    assert agreement.saved(Fake(10, 1.0), Fake(10, 0.9), run).agrees
+    assert not agreement.saved(Fake(10, 1.0), Fake(10, 1.0), run).agrees
+    assert agreement.speedup(Fake(10, 3.0), Fake(10, 2.0, ranks=2), run).agrees
+    assert not agreement.speedup(Fake(10, 2.5), Fake(10, 2.0, ranks=2), run).agrees
 
 
 # The command line
@@ -269,7 +289,8 @@ def test_an_unknown_name_is_refused(tmp_path, capsys):
 
 def test_a_figure_whose_runs_are_missing_is_named(tmp_path, capsys):
     results = tmp_path / "results"
-    shutil.copytree(RESULTS / "iccg", results / "iccg")
+    for name in ("iccg", "cmps"):
+        shutil.copytree(RESULTS / name, results / name)
     line = ["--quick", "--out", str(tmp_path / "out"), "--results", str(results)]
     line += ["--only", "table_1"]
     assert command.main(line) == 1
@@ -281,6 +302,26 @@ def test_run_makes_what_is_missing_and_nothing_twice(tmp_path, monkeypatch, tiny
     monkeypatch.setattr(runs, "make", lambda run, folder: made.append(run.name))
     monkeypatch.setattr(command, "keep", lambda folder, target, run: shutil.copytree(
         tiny[1].folder, target))  # fmt: skip
-    line = ["--out", str(tmp_path), "--run", "--quick", "--only", "scg", "--only", "ddd"]
-    assert command.main(line) == 0 and made == ["scg", "ddd"]
-    assert command.main(line) == 0 and made == ["scg", "ddd"]
+    line = ["--out", str(tmp_path), "--run", "--quick", "--only", "mps", "--only", "fine"]
+    assert command.main(line) == 0 and made == ["mps", "fine"]
+    assert command.main(line) == 0 and made == ["mps", "fine"]
+
+
+def test_methods_go_on_from_the_states_of_a_run_and_are_kept(tmp_path, monkeypatch):
+    changes = {"particles.spacing": 0.01, "tank.width": 0.08, "time.end": 0.04,
+               "output.interval": 0.02, "scheme.recipe": "paper"}  # fmt: skip
+    run = runs.Run("cmps", "CMPS", 1, changes, stops=(0.01, 0.02))
+    plan = runs.read_table() | {"samples": {"at": run.stops, "steps": 3}}
+    monkeypatch.setattr(runs, "read_table", lambda: plan)
+    runs.make(run, tmp_path / "cmps")
+    assert runs.is_done(run, tmp_path / "cmps")
+    methods = [samples.read_methods()[name] for name in ("iccg", "deflated")]
+    methods = [replace(method, ranks=1) for method in methods]
+    samples.take(methods, tmp_path, tmp_path / "results")
+    found = kept.read(tmp_path / "results", {}, {one.name: one for one in methods})
+    for method in found.values():
+        assert method.states.tolist() == [0.01, 0.02]
+        assert len(method.steps["step"]) >= 6 and method.steps["iterations"].min() >= 1
+    # The solver changes the answer by no more than its tolerance.
+    far = np.nanmax(np.abs(found["iccg"].tops - found["deflated"].tops))
+    assert far < 1e-3 * 0.01

@@ -130,6 +130,7 @@ FREE = {
     "name": "other",
     "title": "other",
     "time.end": LATER,
+    "scheme.solver": "scg",
     "scheme.tolerance": 1e-6,
     "scheme.max_iterations": 500,
     "parallel.balance": "static",

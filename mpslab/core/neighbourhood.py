@@ -80,6 +80,20 @@ class Neighbourhood:
         self._correction = self._lean = self._close = None
         return self
 
+    def measure_as(self, near):
+        """Take the geometry of the same pairs from a neighbourhood with another radius."""
+        mine = self.stencil, self.offset
+        self.__dict__.update(near.__dict__)
+        self.stencil, self.offset = mine
+        if len(self.offset) != len(near.offset):
+            self.offset = np.zeros_like(near.offset)
+        self.first, self.second = np.empty_like(near.first), np.empty_like(near.second)
+        measure.weigh(
+            self.row, self.stencil, near.offset, self.inverse, self.offset, self.first, self.second
+        )
+        self._correction = self._lean = None
+        return self
+
     def _make_room(self, pairs, longest):
         """Memory is kept from step to step: to fetch new pages costs more than to write to them."""
         if len(self.inverse) < pairs + LANES:

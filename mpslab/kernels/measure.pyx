@@ -42,6 +42,20 @@ def measure(const double[:, ::1] position, const signed char[::1] role, const in
             begin = end
 
 
+def weigh(const int[::1] row, stencil, const float[:, ::1] measured, const float[::1] inverse,
+          float[:, ::1] offset, double[:, ::1] first, double[:, :, ::1] second):
+    """As `measure`, of pairs that were measured with another stencil."""
+    cdef float radius = stencil.radius
+    cdef Py_ssize_t i, k, a
+    with nogil:
+        for i in range(row.shape[0] - 1):
+            for k in range(row[i], row[i + 1]):
+                for a in range(3):
+                    offset[k, a] = measured[k, a]
+                offset[k, 3] = 1
+            add_up(i, row, radius, offset, inverse, first, second)
+
+
 cdef inline int part(Py_ssize_t i, const signed char[::1] role, const int[::1] row,
                      int[::1] other, int[::1] behind) noexcept nogil:
     """Water first, then solids, each in the order of the list; returns where the solids begin.

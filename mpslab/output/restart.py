@@ -11,7 +11,9 @@ from mpslab.output import checkpoint
 
 # Keys on which neither the state nor the layout of a run depends; all others are fixed when it
 # begins.
-FREE = ("name", "title", "time.end", "scheme.tolerance", "scheme.max_iterations")
+FREE = (
+    "name", "title", "time.end", "scheme.solver", "scheme.tolerance", "scheme.max_iterations",
+)  # fmt: skip
 FREE_TABLES = ("parallel", "output")
 
 NOTHING = own.Own(None, None, None)  # nothing is given: all parts of the user's own are looked for

@@ -34,11 +34,13 @@ def advance(flow, dt):
     with watch.phase("neighbours"):
         find_neighbors(flow)
     with watch.phase("operators"):
-        measure(flow)
+        moves = any(model.STAGE == "predicted" for model in flow.stabilisers)
+        measure(flow, with_gradient=not moves)
         if reaction:
             reaction.find(flow.near)
         _add_viscosity(flow, dt)
-        if _stabilise(flow, "predicted", dt):
+        if moves:
+            _stabilise(flow, "predicted", dt)
             measure(flow)
         graded = find_surface(flow)
     moving = flow.solids.accelerates(particles)
@@ -90,12 +92,15 @@ def find_neighbors(flow):
     )
 
 
-def measure(flow):
-    """Geometry of the pairs in the list, and number density, where the particles are now."""
+def measure(flow, with_gradient=True):
+    """Geometry of the pairs in the list, and number density, where the particles are now.
+
+    The pairs of a gradient with a radius of its own are left out where nothing needs them yet.
+    """
     everywhere = np.ones(len(flow.particles), bool) if flow.extrapolates else None
     flow.near.measure(flow.particles, flow.neighbors, everywhere)
-    if flow.near_gradient is not flow.near:
-        flow.near_gradient.measure(flow.particles, flow.neighbors, everywhere)
+    if with_gradient and flow.near_gradient is not flow.near:
+        flow.near_gradient.measure_as(flow.near)
     flow.particles.number_density[:] = flow.near.number_density
 
 
@@ -231,14 +236,13 @@ def _flight(flow, dt):
 
 
 def _stabilise(flow, stage, dt):
-    """Let the models of a stage move the particles; returns whether there are any."""
+    """Let the models of a stage move the particles."""
     particles, models = flow.particles, [m for m in flow.stabilisers if stage == m.STAGE]
     for model in models:
         flow.domain.refresh(particles.position, particles.velocity)
         _part(flow, model, dt)
     if models and stage == "predicted":
         flow.domain.refresh(particles.position, particles.velocity)
-    return bool(models)
 
 
 def _part(flow, model, dt):
