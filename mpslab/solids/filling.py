@@ -9,7 +9,7 @@ import numpy as np
 
 from mpslab.core import bed as beds
 from mpslab.core.lattice import between, effective_length, ground, size
-from mpslab.solids import gates, obstacles
+from mpslab.solids import gates, obstacles, shaped
 
 # Where a column begins to count, in spacings of volume: rows across the tank differ, and all of
 # them together hold the volume.
@@ -127,7 +127,8 @@ def lid(case):
             new = new[cKDTree(sites).query(new)[0] > beds.CLOSEST * spacing]
         sites = np.vstack([sites, new])
     dry = sites[:, 2] > beds.elevation(case.tank.bed, sites[:, 0])
-    return sites[dry & ~obstacles.holds(case, sites)]
+    dry &= ~obstacles.holds(case, sites) & ~shaped.holds(case, sites)
+    return sites[dry]
 
 
 def laid(case, start, end):
