@@ -53,7 +53,7 @@ class Polygon:
 
     @cached_property
     def _sides(self):
-        """Starts (n, 2), unit vectors (n, 2) and lengths (n,) of the sides, and normals outwards."""
+        """Starts (n, 2), unit vectors (n, 2), lengths (n,) and outward normals of the sides."""
         step = np.roll(self.corners, -1, axis=0) - self.corners
         length = np.hypot(*step.T)
         along = step / length[:, None]
@@ -79,7 +79,7 @@ class Polygon:
         # A side begins and ends, at this depth, where the lines beside it cut it; at a corner that
         # points inwards it is whole, and an arc goes on to the next.
         cut = depth * np.tan(np.maximum(turn, 0.0) / 2.0)
-        points, normals = [], []
+        points, normals = [np.zeros((0, 2))], [np.zeros((0, 2))]
         for k in range(len(start)):
             first, last = cut[k], length[k] - cut[(k + 1) % len(start)]
             if last < first - EXACT * length[k]:
@@ -93,7 +93,7 @@ class Polygon:
                 out = np.column_stack([np.cos(back), np.sin(back)])
                 points.append(start[k] - depth * out)
                 normals.append(out)
-        points, normals = np.vstack([np.zeros((0, 2)), *points]), np.vstack([np.zeros((0, 2)), *normals])
+        points, normals = np.vstack(points), np.vstack(normals)
         there = np.abs(self.distance(points) + depth) < EXACT * np.ptp(self.corners)
         return _merged(points[there], normals[there], SAME * spacing)
 

@@ -16,7 +16,7 @@ from mpslab.solids.solid import Solid
 
 AXES = {"sway": 0, "heave": 1, "roll": 2}
 CLEAR = 0.5  # spacings from the water, as it is laid, to a face at the least
-SAMPLES = 100  # along an axis, of the share of water that a solid takes
+SAMPLES = {2: 300, 3: 60}  # along an axis, of the box around a solid
 
 
 def shapes(case):
@@ -207,20 +207,38 @@ def cover(case, position, role):
 
 def taken(case, start, end):
     """Volume [m3], in 2-D area [m2], that the solids take of a box [m] above the bed, roughly."""
-    total = 0.0
+    return sum(_share(case, shape, start, end, 0.0) for shape in shapes(case))
+
+
+def count(case):
+    """Faces and fillers of the solids in the tank, (2,) float64, roughly."""
+    spacing, layers = case.particles.spacing, case.particles.layers
+    everywhere = np.full(3, -np.inf), np.full(3, np.inf)
+    total = np.zeros(2)
     for shape in shapes(case):
-        low, high = np.maximum(shape.low, start), np.minimum(shape.high, end)
-        axes = [0, 1, 2] if case.dim == 3 else [0, 2]
-        sides = (high - low)[axes]
-        if not np.all(sides > 0.0) or not np.all(np.isfinite(sides)):
-            continue
-        places = np.zeros((SAMPLES ** len(axes), 3))
-        grid = np.meshgrid(*((np.arange(SAMPLES) + 0.5) / SAMPLES for _ in axes), indexing="ij")
-        places[:, axes] = low[axes] + np.column_stack([one.ravel() for one in grid]) * sides
-        inside = shape.distance(places) < 0.0
-        inside &= places[:, 2] > beds.elevation(case.tank.bed, places[:, 0])
-        total += inside.mean() * np.prod(sides)
+        whole, within, core = (
+            _share(case, shape, *everywhere, depth) for depth in (0.0, spacing, layers * spacing)
+        )
+        total += np.array([whole - within, within - core]) / spacing**case.dim
     return total
+
+
+def _share(case, shape, start, end, depth):
+    """Volume of what of a shape is so far inside it [m], in a box [m] of the tank."""
+    tank, length = case.tank, lattice.effective_length(case)
+    low = np.maximum.reduce([shape.low, start, (0.0, 0.0, lowest(tank))])
+    high = np.minimum.reduce([shape.high, end, (length, tank.width, tank.height)])
+    axes = [0, 1, 2] if case.dim == 3 else [0, 2]
+    sides = (high - low)[axes]
+    if not np.all(sides > 0.0):
+        return 0.0
+    number = SAMPLES[case.dim]
+    grid = np.meshgrid(*((np.arange(number) + 0.5) / number for _ in axes), indexing="ij")
+    places = np.zeros((number**case.dim, 3))
+    places[:, axes] = low[axes] + np.column_stack([one.ravel() for one in grid]) * sides
+    inside = shape.distance(places) < -depth
+    inside &= places[:, 2] > beds.elevation(case.tank.bed, places[:, 0])
+    return float(inside.mean() * np.prod(sides))
 
 
 def _open(case, place):
