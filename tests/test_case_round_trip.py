@@ -19,7 +19,9 @@ def test_every_key_is_written_with_its_unit_and_meaning():
     box = {"from": [0.7, 0.0, 0.0], "to": [0.8, 0.1, 0.1]}
     gate = {"x": 0.6, "speed": 1.0}
     force = {"name": "wall", "on": "end_wall"}
-    several = {"obstacle": [box], "gate": [gate], "force": [force]}
+    pile = {"shape": "cylinder", "axis": "z", "center": [0.75, 0.075, 0.0], "radius": 0.03}
+    pile |= {"ends": [0.0, 0.3]}
+    several = {"obstacle": [box], "gate": [gate], "solid": [pile], "force": [force]}
     text = cases.dumps(cases.load_case("dam_break", several))
     for kind in (*TABLES.values(), *LISTS.values()):
         for item in fields(kind):

@@ -18,7 +18,13 @@ REST = {**LONG, "particles.jitter": 0.05, "scheme.gradient": "cmps", "scheme.sou
 MARKED = {**REST, "scheme.surface": "marked", "scheme.projection": "predicted",
           "scheme.gradient": "gc", "scheme.source": "mixed"}  # fmt: skip
 SEA = {**PISTON, "wavemaker.type": "irregular", "wavemaker.height": 0.006, "wavemaker.order": 2}
-CASES = {"sea": SEA, "periodic": PERIODIC, "paper": PAPER, "rest": REST, "marked": MARKED}
+SHAPES = {**LONG, "force": [{"name": "mound", "on": "solid-1"}], "solid": [
+    {"shape": "polygon", "points": [[0.03, 0.0], [0.05, 0.014], [0.06, 0.014], [0.08, 0.0]]},
+    {"shape": "cylinder", "center": [0.12, 0.0, 0.012], "radius": 0.007,
+     "motion": "sway", "amplitude": 0.01, "period": 0.1},
+]}  # fmt: skip
+CASES = {"shapes": SHAPES, "sea": SEA, "periodic": PERIODIC, "paper": PAPER, "rest": REST,
+         "marked": MARKED}  # fmt: skip
 SOLVERS = ["scg", "piccg", "deflated"]
 DRY = {"tank.length": 0.4, "tank.depth": 0.04, "parallel.balance": "static",
        "water": [{"from": [0.0, 0.0, 0.0], "to": [0.06, 0.0, 0.04]}]}  # fmt: skip

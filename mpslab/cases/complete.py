@@ -23,6 +23,7 @@ def complete(case: Case) -> Case:
         water=_boxes(case.water, tank),
         obstacle=_named("obstacle", _boxes(case.obstacle, tank)),
         gate=_named("gate", case.gate),
+        solid=_named("solid", case.solid),
         particles=replace(case.particles, layers=case.particles.layers or least_layers(case)),
         time=_time(case),
         output=_output(case),

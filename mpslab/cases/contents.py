@@ -1,9 +1,10 @@
-"""Checks of what a tank holds: boxes of water, obstacles and gates."""
+"""Checks of what a tank holds: boxes of water, obstacles, gates and solids."""
 
 from itertools import combinations
 
 import numpy as np
 
+from mpslab.cases.solids import check_solids
 from mpslab.core import bed as beds
 from mpslab.core.keys import require, shown
 from mpslab.core.lattice import effective_length
@@ -25,6 +26,7 @@ def check(case):
     _check_water(case)
     _check_obstacles(case)
     _check_gates(case)
+    check_solids(case)
     _check_names(case)
 
 
@@ -104,7 +106,7 @@ def _room(case):
 def _check_names(case):
     """Refuse two solids of one name: in the files a name stands for one thing."""
     seen = dict.fromkeys(RESERVED, f"those of the tank, {', '.join(RESERVED)}")
-    for kind in ("obstacle", "gate"):
+    for kind in ("obstacle", "gate", "solid"):
         for i, solid in enumerate(getattr(case, kind)):
             where = f"{kind}.{i}.name"
             rule = f"different from {seen.get(solid.name)}"

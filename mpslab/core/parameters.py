@@ -119,6 +119,50 @@ class Gate:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Solid:
+    """A solid of any shape, with smooth faces at any angle; at rest, or on a given path."""
+
+    name: str | None = key("its name; solid-1 and so on if left out", None, **NAME)
+    shape: str = key("its shape", choices=("polygon", "cylinder", "sphere"), kind="text")
+    points: tuple = key(
+        "corners of a polygon, closed and without crossings: [x, z], with axis 'z' [x, y]",
+        (),
+        kind="points",
+        unit="m",
+    )
+    center: tuple | None = key(
+        "centre [x, y, z] of a cylinder or sphere; along the axis of a cylinder it does not count",
+        None,
+        kind="point",
+        unit="m",
+    )
+    radius: float = key("radius of a cylinder or sphere", 0.0, unit="m", low=0)
+    axis: str = key(
+        "axis along which polygon and cylinder are drawn out: across the tank, or upright",
+        "y",
+        choices=("y", "z"),
+    )
+    ends: tuple | None = key(
+        "where it ends along its axis [low, high]; as far as the tank reaches if left out",
+        None,
+        kind="place",
+        unit="m",
+    )
+    motion: str = key(
+        "a sine along x (sway), z (heave) or about an axis across (roll); none for a solid at rest",
+        "none",
+        choices=("none", "sway", "heave", "roll"),
+    )
+    amplitude: float = key("amplitude of the sine", 0.0, unit="m, of roll deg", low=0, high=1e3)
+    period: float = key("period of the sine", 0.0, unit="s", low=0)
+    start: float = key("time in which the motion fades in; 0 for none", 0.0, unit="s", low=0)
+    about: tuple = key("axis of the roll [x, z]", (0.0, 0.0), kind="place", unit="m")
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Particles:
     """How the tank is filled with particles."""
 
@@ -252,7 +296,7 @@ class Force:
 
     name: str = key("heading of its columns", **NAME)
     on: str = key(
-        "what it is on: tank, bed, end_wall, piston, or the name of an obstacle or a gate",
+        "what it is on: tank, bed, end_wall, piston, or the name of an obstacle, a gate or a solid",
         kind="text",
     )
     about: tuple = key(
@@ -283,6 +327,7 @@ LISTS = {
     "water": Water,
     "obstacle": Obstacle,
     "gate": Gate,
+    "solid": Solid,
     "gauge": Gauge,
     "probe": Probe,
     "force": Force,
@@ -308,6 +353,7 @@ class Case:
     water: tuple[Water, ...] = ()
     obstacle: tuple[Obstacle, ...] = ()
     gate: tuple[Gate, ...] = ()
+    solid: tuple[Solid, ...] = ()
     gauge: tuple[Gauge, ...] = ()
     probe: tuple[Probe, ...] = ()
     force: tuple[Force, ...] = ()

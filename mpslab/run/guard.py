@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mpslab.core.lattice import effective_length, rows_across
-from mpslab.solids import obstacles
+from mpslab.solids import obstacles, shaped
 
 MOST_LOST = 1e-3  # of the fluid particles at the start
 FEW_LOST = 5  # may be lost by any run
@@ -53,6 +53,8 @@ def find_lost(case, particles, face):
         sides.append(("through the lid", position[:, 2] > case.tank.height + 2.0 * spacing))
     if case.obstacle:
         sides.append(("into an obstacle", obstacles.deep_inside(case, position) >= 0))
+    if case.solid:
+        sides.append(("into a solid", shaped.deep_inside(case, position)))
     found, seen = [], np.zeros(len(suspects), bool)
     for reason, outside in sides:
         rows = suspects[outside & ~seen]
@@ -71,7 +73,7 @@ def _may_be_lost(case, particles, face):
         suspect |= (y < 0.0) | (y > rows_across(case) * case.particles.spacing)
     if case.tank.lid:
         suspect |= z > case.tank.height
-    if case.obstacle:
+    if case.obstacle or case.solid:
         suspect[:] = True
     return suspect & particles.fluid
 

@@ -16,7 +16,7 @@ from mpslab.parallel import balance
 from mpslab.run.flow import slabs_of, solver_of
 from mpslab.run.preflight_frame import tank_motion
 from mpslab.run.preflight_text import sections
-from mpslab.solids import filling, gates, obstacles
+from mpslab.solids import filling, gates, obstacles, shaped
 from mpslab.solids.census import census
 from mpslab.solids.piston import make_paddle
 from mpslab.theory import breaking, waves
@@ -154,6 +154,7 @@ def _particles(case, count):
         "tank_length [m]": effective_length(case),
         "tank_width [m]": across,
         "laid_out": {**_water(case), **_obstacles(case), **_gates(case)},
+        "solids": _solids(case),
     }
 
 
@@ -179,6 +180,24 @@ def _obstacles(case):
         }
         for i, (low, high) in enumerate(obstacles.blocks(case) * case.particles.spacing)
     }
+
+
+def _solids(case):
+    """Of the solids of any shape, by name: what they cover, and how thin they are."""
+    axes = [0, 1, 2] if case.dim == 3 else [0, 2]
+    return {
+        given.name: {
+            "shape": given.shape,
+            **{f"{'xyz'[k]} [m]": [_end(shape.low[k]), _end(shape.high[k])] for k in axes},
+            "thinnest [m]": _end(shape.thinnest),
+        }
+        for given, shape in zip(case.solid, shaped.shapes(case), strict=True)
+    }
+
+
+def _end(place):
+    """A place as JSON can hold it: None where there is no end."""
+    return float(place) if np.isfinite(place) else None
 
 
 def _gates(case):

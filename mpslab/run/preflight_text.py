@@ -43,10 +43,21 @@ def _particles(found):
     for name, faces in found["laid_out"].items():
         sides = [_side(axis[0], *places) for axis, places in faces.items()]
         yield f"{name} in whole spacings", ", ".join(sides)
+    for name, solid in found["solids"].items():
+        yield name, _solid(solid, spacing)
+
+
+def _solid(solid, spacing):
+    """What a solid covers, and how thin it is."""
+    sides = [_side(axis[0], *ends) for axis, ends in solid.items() if axis[1:] == " [m]"]
+    thin = solid["thinnest [m]"]
+    across = f", {thin / spacing:.3g} spacings at the thinnest" if thin else ""
+    return f"{solid['shape']}, {', '.join(sides)}{across}"
 
 
 def _side(axis, low, high):
-    return f"{axis} {_face(low, axis)} to {_face(high, axis)}"
+    top = "top" if high is None and axis == "z" else _face(high, axis)
+    return f"{axis} {_face(low, axis)} to {top}"
 
 
 def _face(place, axis):

@@ -1,8 +1,9 @@
 """How many particles a case has, by arithmetic: nothing is laid out, whatever the size.
 
 The columns of the tank are counted as `filling` and the solids lay them out; if there are very
-many, some of them stand for all.  The sum is exact, except for discs, dips of a staircase, and
-tanks with very many columns; a wall that an obstacle covers still counts as wall.
+many, some of them stand for all.  The sum is exact, except for discs, solids of any shape, dips of
+a staircase, and tanks with very many columns; a wall that an obstacle or a solid covers still
+counts as wall.
 """
 
 import numpy as np
@@ -19,7 +20,7 @@ from mpslab.core.kinds import (
     WALL,
 )
 from mpslab.core.lattice import effective_length, ground, rows_across
-from mpslab.solids import filling, gates, obstacles
+from mpslab.solids import filling, gates, obstacles, shaped
 
 MOST_COLUMNS = 10_000  # looked at one by one
 
@@ -48,6 +49,8 @@ def census(case, backmost=0.0):
         count[WALL] += 2.0 * (wall + floor[WALL])
         count[DUMMY] += 2.0 * (layers * (all_of_it + sum(floor.values())) - wall - floor[WALL])
     count[WALL], count[DUMMY] = np.array([count[WALL], count[DUMMY]]) + _obstacles(case)
+    if case.solid:
+        count[WALL], count[DUMMY] = np.array([count[WALL], count[DUMMY]]) + shaped.count(case)
     return count
 
 
@@ -89,7 +92,8 @@ def _water(case):
             across = round(high[1] / spacing) - round(low[1] / spacing) if case.dim == 3 else 1
             height = np.maximum(high[2] - ground(case, x, low[2])[0], 0.0) / spacing
             total += share * across * each * height.sum()
-    return total
+        total -= share * shaped.taken(case, start, end) / spacing**case.dim
+    return max(total, 0.0)
 
 
 def _floor(case, behind):

@@ -5,17 +5,17 @@ import numpy as np
 from mpslab.core.keys import check_value
 from mpslab.core.parameters import NAME
 from mpslab.core.particles import FIRST_SOLID, PISTON, TANK
-from mpslab.solids import gates, obstacles
+from mpslab.solids import gates, obstacles, shaped
 from mpslab.solids.piston import Piston
 from mpslab.solids.tank import Tank
 
 # The name of a user's solid: without a dot, which stands between it and the key of its state.
 OWN_NAME = {**NAME, "forbidden": NAME["forbidden"] + ".", "unit": ""}
-KINDS = (obstacles, gates)  # that a case may have several of, in the order of their bodies
+KINDS = (obstacles, gates, shaped)  # that a case may have several of, in the order of their bodies
 
 
 def solids_of(case, paddle=None, own=(), backmost=0.0):
-    """The solids of a case: tank, piston, obstacles and gates, and after them the user's own.
+    """The solids of a case: tank, piston, obstacles, gates, those of any shape; then the user's.
 
     Parameters
     ----------

@@ -9,7 +9,7 @@ import numpy as np
 
 from mpslab.core import bed as beds
 from mpslab.core.lattice import between, effective_length, ground, size
-from mpslab.solids import gates, obstacles
+from mpslab.solids import gates, obstacles, shaped
 
 # Share of a particle with which the first column begins: it differs from row to row across the
 # tank, so that all rows together hold the volume.
@@ -128,7 +128,8 @@ def lid(case):
             new = new[cKDTree(sites).query(new)[0] > beds.CLOSEST * spacing]
         sites = np.vstack([sites, new])
     dry = sites[:, 2] > beds.elevation(case.tank.bed, sites[:, 0])
-    return sites[dry & ~obstacles.holds(case, sites)]
+    dry &= ~obstacles.holds(case, sites) & ~shaped.holds(case, sites)
+    return sites[dry]
 
 
 def laid(case, start, end):

@@ -9,7 +9,7 @@ from mpslab.core.lattice import at_row, effective_length, rows_across
 from mpslab.core.particles import FIRST_SOLID, FLUID, WATER, make_particles
 from mpslab.forcings import forcings_of, total
 from mpslab.later import scipy
-from mpslab.solids import filling, obstacles
+from mpslab.solids import filling, obstacles, shaped
 from mpslab.solids.collection import solids_of
 
 
@@ -75,7 +75,7 @@ def _water(case, own):
     water += _jitter(case, len(water))
     for solid in own:
         water = water[~solid.holds(water)]
-    return water
+    return shaped.give_way(case, water)
 
 
 def _jitter(case, n):

@@ -38,5 +38,5 @@ def _between(case, particles):
 
 
 def _solids(case):
-    """Names of obstacles and gates, in the order of their bodies."""
-    return tuple(solid.name for solid in (*case.obstacle, *case.gate))
+    """Names of the solids of a case beside tank and piston, in the order of their bodies."""
+    return tuple(solid.name for solid in (*case.obstacle, *case.gate, *case.solid))

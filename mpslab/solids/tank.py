@@ -12,7 +12,7 @@ from mpslab.core import bed as beds
 from mpslab.core import lattice
 from mpslab.core.lattice import effective_length
 from mpslab.core.particles import FACE, FILLER
-from mpslab.solids import obstacles
+from mpslab.solids import obstacles, shaped
 from mpslab.solids.solid import Solid
 
 
@@ -42,6 +42,7 @@ class Tank(Solid):
                 roles.append(role)
         position, role = np.vstack(positions), np.concatenate(roles).astype(np.int8)
         obstacles.cover(case, position, role)
+        shaped.cover(case, position, role)
         return position, role
 
     def holds(self, points):

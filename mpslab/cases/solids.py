@@ -1,0 +1,115 @@
+"""Checks of the solids of any shape, ``[[solid]]``."""
+
+from itertools import combinations
+
+import numpy as np
+
+from mpslab.core.keys import require, shown
+from mpslab.core.lattice import effective_length, rows_across
+from mpslab.solids import obstacles, shaped
+
+MOST_POINTS = 1000
+ROUND_OFF = 1e-9  # of a length
+
+
+def check_solids(case):
+    """Raise CaseError, with key, value and range, if a solid cannot be what it is said to be."""
+    for number, given in enumerate(case.solid):
+        where = f"solid.{number}"
+        _check_shape(case, where, given)
+        _check_motion(where, given)
+    for number, (given, shape) in enumerate(zip(case.solid, shaped.shapes(case), strict=True)):
+        _check_place(case, f"solid.{number}", given, shape)
+        _check_thickness(case, f"solid.{number}", given, shape)
+
+
+def _check_shape(case, where, given):
+    flat = case.dim == 2
+    require(not (flat and given.shape == "sphere"), f"{where}.shape", given.shape,
+            "polygon or cylinder in a 2-D tank, tank.width = 0")  # fmt: skip
+    require(not flat or given.axis == "y", f"{where}.axis", given.axis,
+            "y in a 2-D tank, tank.width = 0")  # fmt: skip
+    if given.shape == "polygon":
+        _check_points(case, where, given.points)
+    else:
+        key = f"{where}.center"
+        require(given.center is not None, key, given.center, f"given for a {given.shape}")
+        require(given.radius > 0.0, f"{where}.radius", given.radius, f"> 0 for a {given.shape}")
+    require(given.ends is None or given.ends[0] < given.ends[1], f"{where}.ends", given.ends,
+            "[low, high] with low < high")  # fmt: skip
+
+
+def _check_points(case, where, points):
+    key = f"{where}.points"
+    many = 3 <= len(points) <= MOST_POINTS
+    require(many, key, points, f"3 corners or more, {MOST_POINTS:,} at the most")
+    corners = np.array(points)
+    least = 0.1 * case.particles.spacing
+    side = np.hypot(*(np.roll(corners, -1, axis=0) - corners).T)
+    require(side.min() >= least, key, points,
+            f"corners that are {least:g} m, a tenth of a spacing, apart or more")  # fmt: skip
+    for i, j in combinations(range(len(points)), 2):
+        if (j - i) % len(points) in (1, len(points) - 1):
+            continue
+        a, b, c, d = (corners[k % len(points)] for k in (i, i + 1, j, j + 1))
+        rule = f"a line without crossings: its sides {i + 1} and {j + 1} cross"
+        require(not _cross(a, b, c, d), key, points, rule)
+
+
+def _cross(a, b, c, d):
+    """Whether the lines from a to b and from c to d cross or touch."""
+
+    def turn(p, q, r):
+        return np.sign((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]))
+
+    if turn(a, b, c) == turn(a, b, d) == 0:
+        low, high = np.maximum(np.minimum(a, b), np.minimum(c, d)), np.minimum(
+            np.maximum(a, b), np.maximum(c, d))  # fmt: skip
+        return bool(np.all(low <= high))
+    return turn(a, b, c) != turn(a, b, d) and turn(c, d, a) != turn(c, d, b)
+
+
+def _check_motion(where, given):
+    if given.motion == "none":
+        return
+    rule = f"> 0 for motion = {given.motion!r}"
+    require(given.amplitude > 0.0, f"{where}.amplitude", given.amplitude, rule)
+    require(given.period > 0.0, f"{where}.period", given.period, rule)
+
+
+def _check_place(case, where, given, shape):
+    tank, slack = case.tank, ROUND_OFF * case.tank.length
+    key = f"{where}.{'points' if given.shape == 'polygon' else 'center'}"
+    value = given.points or given.center
+    there = shape.low[0] < effective_length(case) and shape.high[0] > 0.0
+    require(there, key, value, f"in the tank, x from 0 to {tank.length:g} m")
+    require(
+        shape.high[2] > min(z for _, z in tank.bed),
+        key,
+        value,
+        "above the bed, or it has no particles",
+    )
+    if case.dim == 3:
+        width = rows_across(case) * case.particles.spacing
+        there = shape.low[1] < width and shape.high[1] > 0.0
+        require(there, key, value, f"in the tank, y from 0 to {width:g} m")
+        inside = shape.low[1] >= -slack and shape.high[1] <= width + slack
+        whole = given.shape != "sphere" and given.axis == "y" and given.ends is None
+        rule = f"between y = 0 and {width:g} m, for the tank is periodic there"
+        require(not tank.periodic or whole or inside, key, value, rule)
+
+
+def _check_thickness(case, where, given, shape):
+    least = obstacles.least_thickness(case)
+    thick = least * case.particles.spacing
+    key = f"{where}.{'points' if given.shape == 'polygon' else 'radius'}"
+    value = given.points if given.shape == "polygon" else given.radius
+    if given.shape == "polygon" and shape.thinnest == shape.ends[1] - shape.ends[0]:
+        key, value = f"{where}.ends", given.ends
+    require(
+        shape.thinnest >= thick * (1.0 - ROUND_OFF),
+        key,
+        value,
+        f"{least} spacings, {thick:g} m, thick or more where sides face each other, or water on "
+        f"one side presses through to the other; here it is {shown(float(shape.thinnest))} m",
+    )

@@ -1,0 +1,261 @@
+"""Solids of any shape, ``[[solid]]``: layers of particles along smooth faces at any angle."""
+
+from functools import lru_cache
+from itertools import product
+
+import numpy as np
+
+from mpslab.core import bed as beds
+from mpslab.core import lattice
+from mpslab.core.motion import Sine
+from mpslab.core.particles import FACE, FILLER
+from mpslab.solids import obstacles
+from mpslab.solids.outlines import Circle, Polygon
+from mpslab.solids.shapes import Prism, Sphere
+from mpslab.solids.solid import Solid
+
+AXES = {"sway": 0, "heave": 1, "roll": 2}
+CLEAR = 0.5  # spacings from the water, as it is laid, to a face at the least
+SAMPLES = {2: 300, 3: 60}  # along an axis, of the box around a solid
+
+
+def shapes(case):
+    """The shapes of the solids of a case, a tuple."""
+    return _shapes(case.solid, case.tank, case.particles.spacing)
+
+
+@lru_cache(maxsize=4)
+def _shapes(solids, tank, spacing):
+    return tuple(_shape(given, tank, spacing) for given in solids)
+
+
+def _shape(given, tank, spacing):
+    if given.shape == "sphere":
+        return Sphere(given.center, given.radius)
+    if given.axis == "z":
+        first, last = lowest(tank) - spacing, tank.height
+    elif tank.width > 0.0:
+        first, last = 0.0, lattice.size(tank, spacing)[1] * spacing
+    else:
+        return Prism(_outline(given), "y", (-np.inf, np.inf), np.zeros(1))
+    low, high = (round(end / spacing) * spacing for end in given.ends or (first, last))
+    rows = np.arange(round(max(low, first) / spacing), round(min(high, last) / spacing)) + 0.5
+    slack = 0.5 * spacing
+    ends = low if low > first + slack else -np.inf, high if high < last - slack else np.inf
+    return Prism(_outline(given), given.axis, ends, rows * spacing)
+
+
+def lowest(tank):
+    """Lowest point of the bed [m]."""
+    return min(z for _, z in tank.bed)
+
+
+def _outline(given):
+    if given.shape == "polygon":
+        return Polygon(given.points)
+    plane = (0, 2) if given.axis == "y" else (0, 1)
+    return Circle([given.center[k] for k in plane], given.radius)
+
+
+class Shaped(Solid):
+    """A solid of the case; of two that overlap, the earlier one has the particles.
+
+    Parameters
+    ----------
+    case : mpslab.core.parameters.Case
+    number : int
+        Which of ``case.solid`` it is.
+    tank : mpslab.solids.tank.Tank
+    """
+
+    def __init__(self, case, number, tank):
+        given = case.solid[number]
+        super().__init__(given.name)
+        self.case, self.number, self.tank = case, number, tank
+        self.shape = shapes(case)[number]
+        self.motion = motion_of(given)
+
+    def particles(self, case):
+        spacing = case.particles.spacing
+        position, normal, layer = self.shape.layers(spacing, case.particles.layers)
+        keep = _in_tank(case, position)
+        keep &= position[:, 2] > beds.elevation(case.tank.bed, position[:, 0])
+        keep &= lattice.clear(case, position[:, [0, 2]], self.tank.floor[0])
+        keep &= ~obstacles.holds(case, position) if case.obstacle else True
+        for other in shapes(case)[: self.number]:
+            keep &= other.distance(position) > 0.0
+        position, normal, layer = position[keep], normal[keep], layer[keep]
+        face = (layer == 0) & _open(case, position + spacing * normal)
+        return position, np.where(face, FACE, FILLER)
+
+    def holds(self, points):
+        return self.shape.distance(points) < 0.0
+
+
+def make(case, tank):
+    """The solids of a case, in their order."""
+    return [Shaped(case, number, tank) for number in range(len(case.solid))]
+
+
+def motion_of(given):
+    """The prescribed motion of a table ``[[solid]]``, None for one at rest."""
+    if given.motion == "none":
+        return None
+    amplitude = np.radians(given.amplitude) if given.motion == "roll" else given.amplitude
+    return Sine(AXES[given.motion], amplitude, given.period, given.start, given.about)
+
+
+def holds(case, position, margin=0.0):
+    """Whether places (n, 3) [m] are so far inside a solid [m], (n,) bool."""
+    found = np.zeros(len(position), bool)
+    for shape in shapes(case):
+        found |= shape.distance(position) < -margin
+    return found
+
+
+def deep_inside(case, position):
+    """Whether places (n, 3) [m] are more than a spacing inside a solid at rest, (n,) bool.
+
+    Most are nowhere near one: a raster says so, and only of the others the distance is taken.
+    """
+    found = np.zeros(len(position), bool)
+    for shape, given, raster in zip(shapes(case), case.solid, _rasters(case), strict=True):
+        if given.motion == "none":
+            rows = np.flatnonzero(raster.near(position))
+            found[rows] |= shape.distance(position[rows]) < -case.particles.spacing
+    return found
+
+
+class Raster:
+    """Cells of a shape [m] that are more than a spacing inside it, or may be.
+
+    Parameters
+    ----------
+    shape : see `mpslab.solids.shapes`
+    box : (2, 3) float64 [m]
+        What of space is asked for.
+    spacing : float [m]
+    """
+
+    def __init__(self, shape, box, spacing):
+        self.low = np.maximum(shape.low, box[0])
+        self.cell = 2.0 * spacing
+        high = np.minimum(shape.high, box[1])
+        self.size = np.maximum(np.ceil((high - self.low) / self.cell).astype(int), 1)
+        grid = np.meshgrid(*(np.arange(n) + 0.5 for n in self.size), indexing="ij")
+        centre = self.low + self.cell * np.stack(grid, axis=-1).reshape(-1, 3)
+        half = 0.5 * np.sqrt(3.0) * self.cell
+        self.inside = shape.distance(centre) < half - spacing
+
+    def near(self, position):
+        """Whether places (n, 3) [m] are in such a cell, (n,) bool."""
+        index = np.floor((position - self.low) / self.cell).astype(int)
+        there = np.flatnonzero(np.all((index >= 0) & (index < self.size), axis=1))
+        found = np.zeros(len(position), bool)
+        found[there] = self.inside[np.ravel_multi_index(index[there].T, self.size)]
+        return found
+
+
+def _rasters(case):
+    tank, spacing = case.tank, case.particles.spacing
+    return _made_rasters(case.solid, tank, spacing)
+
+
+@lru_cache(maxsize=4)
+def _made_rasters(solids, tank, spacing):
+    box = np.array([[-spacing, -spacing, lowest(tank) - spacing],
+                    [tank.length + spacing, tank.width + spacing, tank.height]])  # fmt: skip
+    return tuple(Raster(shape, box, spacing) for shape in _shapes(solids, tank, spacing))
+
+
+def give_way(case, water):
+    """Water (n, 3) [m] outside of the solids: what is nearer than half a spacing is moved off."""
+    step = 1e-3 * case.particles.spacing
+    for shape in shapes(case):
+        distance = shape.distance(water)
+        water, distance = water[distance >= 0.0], distance[distance >= 0.0]
+        near = np.flatnonzero(distance < CLEAR * case.particles.spacing)
+        slope = np.column_stack([
+            shape.distance(water[near] + step * axis) - distance[near] for axis in np.eye(3)
+        ])  # fmt: skip
+        slope[:, 1] *= case.dim == 3
+        slope /= np.maximum(np.linalg.norm(slope, axis=1), 1e-9 * step)[:, None]
+        far = CLEAR * case.particles.spacing - distance[near]
+        water[near] += far[:, None] * slope
+    return water
+
+
+def cover(case, position, role):
+    """Make fillers of the faces of the tank that solids at rest stand against, in place.
+
+    position, role : (n, 3) float64 [m], (n,) int8, of the tank
+    """
+    still = [shape for shape, given in zip(shapes(case), case.solid, strict=True)
+             if given.motion == "none"]  # fmt: skip
+    spacing = case.particles.spacing
+    near = np.zeros(len(position), bool)
+    for shape in still:
+        near |= shape.distance(position) < spacing
+    rows = np.flatnonzero((role == FACE) & near)
+    if len(rows):
+        sites = product((-1, 0, 1), (-1, 0, 1) if case.dim == 3 else (0,), (-1, 0, 1))
+        open_ = np.any(
+            [_open(case, position[rows] + spacing * np.array(site)) for site in sites], axis=0
+        )
+        role[rows[~open_]] = FILLER
+
+
+def taken(case, start, end):
+    """Volume [m3], in 2-D area [m2], that the solids take of a box [m] above the bed, roughly."""
+    return sum(_share(case, shape, start, end, 0.0) for shape in shapes(case))
+
+
+def count(case):
+    """Faces and fillers of the solids in the tank, (2,) float64, roughly."""
+    spacing, layers = case.particles.spacing, case.particles.layers
+    everywhere = np.full(3, -np.inf), np.full(3, np.inf)
+    total = np.zeros(2)
+    for shape in shapes(case):
+        whole, within, core = (
+            _share(case, shape, *everywhere, depth) for depth in (0.0, spacing, layers * spacing)
+        )
+        total += np.array([whole - within, within - core]) / spacing**case.dim
+    return total
+
+
+def _share(case, shape, start, end, depth):
+    """Volume of what of a shape is so far inside it [m], in a box [m] of the tank."""
+    tank, length = case.tank, lattice.effective_length(case)
+    low = np.maximum.reduce([shape.low, start, (0.0, 0.0, lowest(tank))])
+    high = np.minimum.reduce([shape.high, end, (length, tank.width, tank.height)])
+    axes = [0, 1, 2] if case.dim == 3 else [0, 2]
+    sides = (high - low)[axes]
+    if not np.all(sides > 0.0):
+        return 0.0
+    number = SAMPLES[case.dim]
+    grid = np.meshgrid(*((np.arange(number) + 0.5) / number for _ in axes), indexing="ij")
+    places = np.zeros((number**case.dim, 3))
+    places[:, axes] = low[axes] + np.column_stack([one.ravel() for one in grid]) * sides
+    inside = shape.distance(places) < -depth
+    inside &= places[:, 2] > beds.elevation(case.tank.bed, places[:, 0])
+    return float(inside.mean() * np.prod(sides))
+
+
+def _open(case, place):
+    """Whether places (n, 3) [m] are in the tank and in no obstacle or solid at rest."""
+    found = _in_tank(case, place)
+    found &= place[:, 2] > beds.elevation(case.tank.bed, place[:, 0])
+    found &= ~obstacles.holds(case, place) if case.obstacle else True
+    for shape, given in zip(shapes(case), case.solid, strict=True):
+        if given.motion == "none":
+            found &= shape.distance(place) > 0.0
+    return found
+
+
+def _in_tank(case, place):
+    """Whether places (n, 3) [m] are between the walls of the tank, (n,) bool."""
+    x, y = place[:, 0], place[:, 1]
+    found = (x > 0.0) & (x < lattice.effective_length(case))
+    if case.dim == 3 and not case.tank.periodic:
+        found &= (y > 0.0) & (y < lattice.rows_across(case) * case.particles.spacing)
+    return found

@@ -1,0 +1,102 @@
+"""Shapes of solids in space: how far a place is from them, and layers of particles inside.
+
+A shape has
+
+    distance(points) -> (n,) float64 [m]
+        Of places (n, 3) [m], negative inside.
+    layers(spacing, count) -> position (m, 3) [m], normal (m, 3), layer (m,) int
+        Particles about a spacing apart, layer k lying (k + 1/2) spacings inside; and the direction
+        out of the shape.
+    low, high : (3,) float64 [m]
+        The corners of what it covers; infinite along an axis on which it has no end.
+    thinnest : float [m]
+        As of an outline (`mpslab.solids.outlines`).
+"""
+
+import numpy as np
+
+GOLDEN = np.pi * (3.0 - np.sqrt(5.0))  # angle from particle to particle of a spiral on a sphere
+PLANE = {"y": (0, 2), "z": (0, 1)}  # axes across the axis of a prism
+INDEX = {"y": 1, "z": 2}
+
+
+class Prism:
+    """An outline, drawn out along an axis.
+
+    Parameters
+    ----------
+    outline : see `mpslab.solids.outlines`
+        In x and z for axis "y", in x and y for axis "z".
+    axis : str
+    ends : (float, float) [m]
+        Where it ends; infinite for where it goes on into a wall or the bed.
+    rows : (n,) float64 [m]
+        Where along the axis its particles are to be.
+    """
+
+    def __init__(self, outline, axis, ends, rows):
+        self.outline, self.ends, self.rows = outline, np.asarray(ends, float), rows
+        self.plane, self.along = PLANE[axis], INDEX[axis]
+        self.low, self.high = np.full(3, ends[0]), np.full(3, ends[1])
+        self.low[list(self.plane)], self.high[list(self.plane)] = outline.low, outline.high
+
+    @property
+    def thinnest(self):
+        return min(self.outline.thinnest, self.ends[1] - self.ends[0])
+
+    def distance(self, points):
+        across = self.outline.distance(points[:, self.plane])
+        beyond = np.maximum(self.ends[0] - points[:, self.along],
+                            points[:, self.along] - self.ends[1])  # fmt: skip
+        outside = np.hypot(np.maximum(across, 0.0), np.maximum(beyond, 0.0))
+        return np.where(outside > 0.0, outside, np.maximum(across, beyond))
+
+    def layers(self, spacing, count):
+        whole = int(np.ceil(0.5 * (self.outline.high - self.outline.low).min() / spacing)) + 1
+        rings = [self.outline.ring((k + 0.5) * spacing, spacing) for k in range(max(whole, count))]
+        found = []
+        for place in self.rows:
+            off = min(place - self.ends[0], self.ends[1] - place)
+            row = int(off / spacing) if np.isfinite(off) else count
+            up = np.zeros(3)
+            up[self.along] = 1.0 if place - self.ends[0] > self.ends[1] - place else -1.0
+            for k, (points, normals) in enumerate(rings[: whole if row < count else count]):
+                position, normal = np.full((len(points), 3), place), np.zeros((len(points), 3))
+                position[:, self.plane], normal[:, self.plane] = points, normals
+                if row < k:
+                    normal[:] = up
+                elif row == k:
+                    normal = (normal + up) / np.sqrt(2.0)
+                found.append((position, normal, np.full(len(points), min(k, row))))
+        return _stacked(found)
+
+
+class Sphere:
+    """A sphere of a radius [m] about a centre (3,) [m]."""
+
+    def __init__(self, center, radius):
+        self.center, self.radius = np.asarray(center, float), radius
+        self.low, self.high = self.center - radius, self.center + radius
+        self.thinnest = 2.0 * radius
+
+    def distance(self, points):
+        return np.linalg.norm(points - self.center, axis=1) - self.radius
+
+    def layers(self, spacing, count):
+        found = []
+        for k in range(count):
+            radius = self.radius - (k + 0.5) * spacing
+            if radius < -0.25 * spacing:
+                break
+            number = max(round(4.0 * np.pi * max(radius, 0.0) ** 2 / spacing**2), 1)
+            turn, up = GOLDEN * np.arange(number), 1.0 - (2.0 * np.arange(number) + 1.0) / number
+            flat = np.sqrt(1.0 - up**2)
+            out = np.column_stack([flat * np.cos(turn), flat * np.sin(turn), up])
+            position = self.center + max(radius, 0.0) * out
+            found.append((position, out, np.full(number, k)))
+        return _stacked(found)
+
+
+def _stacked(found):
+    positions, normals, layers = zip(*found, strict=True)
+    return np.vstack(positions), np.vstack(normals), np.concatenate(layers)
