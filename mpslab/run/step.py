@@ -382,6 +382,8 @@ def _flight(flow, dt):
     pass through what it meets.
     """
     path, furthest = dt * flow.particles.velocity, FURTHEST * flow.stencil.spacing
+    if max(path.max(initial=0.0), -path.min(initial=0.0)) < 0.5 * furthest:
+        return path
     square = np.einsum("ij,ij->i", path, path)
     far = np.flatnonzero(square > furthest**2)
     path[far] *= (furthest / np.sqrt(square[far]))[:, np.newaxis]

@@ -1,0 +1,20 @@
+"""Vectors of particles, (n, 3) float64, whose rows numpy takes and pads one by one, slowly."""
+
+
+def take(const double[:, ::1] vectors, const int[::1] order, double[:, ::1] out):
+    """out = the rows `order` of the vectors."""
+    cdef Py_ssize_t i
+    cdef int j
+    with nogil:
+        for i in range(order.shape[0]):
+            j = order[i]
+            out[i, 0], out[i, 1], out[i, 2] = vectors[j, 0], vectors[j, 1], vectors[j, 2]
+
+
+def pad(const double[:, ::1] vectors, double[:, ::1] out):
+    """out (n, 4) = the vectors with a fourth number, 0."""
+    cdef Py_ssize_t i
+    with nogil:
+        for i in range(out.shape[0]):
+            out[i, 0], out[i, 1], out[i, 2] = vectors[i, 0], vectors[i, 1], vectors[i, 2]
+            out[i, 3] = 0.0
