@@ -102,8 +102,9 @@ def close(const int[::1] row, const int[::1] other, const float[::1] inverse, do
             close_row[i] = found
             reach = distance + path[i]
             for k in range(row[i], row[i + 1]):
-                close_other[found] = other[k]
-                found += inverse[k] * (reach + path[other[k]]) >= 1.0 - 1e-6
+                if inverse[k] * (reach + path[other[k]]) >= 1.0 - 1e-6:
+                    close_other[found] = other[k]
+                    found += 1
         close_row[close_row.shape[0] - 1] = found
     return found
 
