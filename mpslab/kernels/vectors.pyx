@@ -1,4 +1,4 @@
-"""Vectors of particles, (n, 3) float64, whose rows numpy takes and pads one by one, slowly."""
+"""Vectors of particles, (n, 3) float64: numpy is slow with rows of three numbers."""
 
 
 def take(const double[:, ::1] vectors, const int[::1] order, double[:, ::1] out):
@@ -18,3 +18,15 @@ def pad(const double[:, ::1] vectors, double[:, ::1] out):
         for i in range(out.shape[0]):
             out[i, 0], out[i, 1], out[i, 2] = vectors[i, 0], vectors[i, 1], vectors[i, 2]
             out[i, 3] = 0.0
+
+
+def add(double[:, ::1] vectors, const double[:, ::1] change, const unsigned char[::1] mask):
+    """Add a change, or one of one row to all, to the vectors that a mask has."""
+    cdef Py_ssize_t i, j, each = change.shape[0] > 1
+    with nogil:
+        for i in range(mask.shape[0]):
+            if mask[i]:
+                j = i * each
+                vectors[i, 0] += change[j, 0]
+                vectors[i, 1] += change[j, 1]
+                vectors[i, 2] += change[j, 2]

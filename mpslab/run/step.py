@@ -10,7 +10,7 @@ from mpslab.core import plugins
 from mpslab.core.cells import make_cells
 from mpslab.core.neighbors import NeighborList
 from mpslab.core.neighbourhood import Neighbourhood
-from mpslab.core.particles import ParticleSet, on_axes
+from mpslab.core.particles import ParticleSet, add_where, on_axes
 from mpslab.core.stencil import Stencil, make_stencil
 from mpslab.core.timestep import pace
 from mpslab.forcings import forcings_of, total
@@ -242,9 +242,9 @@ def _predict(flow, dt):
     particles = flow.particles
     flow.solids.advance(flow.time, dt, flow.readings)
     flow.solids.push(particles, flow.time, dt)
-    particles.velocity += dt * force_on(flow, dt) * on_axes(particles.fluid)
+    add_where(particles.fluid, particles.velocity, dt * force_on(flow, dt))
     if flow.case.scheme.projection == "predicted":
-        particles.position += _flight(flow, dt) * on_axes(particles.fluid)
+        add_where(particles.fluid, particles.position, _flight(flow, dt))
         flow.solids.move(particles, flow.time, dt)
 
 
