@@ -17,14 +17,14 @@ def carries_pressure(role):
     return role != FILLER
 
 
-def on_axes(mask):
-    """A mask of particles for their vectors: (n,) bool -> (n, 3) bool."""
-    return np.repeat(mask, 3).reshape(-1, 3)
-
-
 def add_where(mask, vectors, change):
     """Add to the vectors (n, 3) that a mask (n,) bool has a change [(3,) or (n, 3)], in place."""
     vectors_.add(vectors, np.atleast_2d(change), mask.view(np.uint8))
+
+
+def put_where(mask, vectors, others):
+    """Put others (n, 3) in place of the vectors (n, 3) that a mask (n,) bool has."""
+    vectors_.put(vectors, others, mask.view(np.uint8))
 
 
 def squares(vectors):

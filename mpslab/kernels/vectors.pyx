@@ -30,3 +30,14 @@ def add(double[:, ::1] vectors, const double[:, ::1] change, const unsigned char
                 vectors[i, 0] += change[j, 0]
                 vectors[i, 1] += change[j, 1]
                 vectors[i, 2] += change[j, 2]
+
+
+def put(double[:, ::1] vectors, const double[:, ::1] others, const unsigned char[::1] mask):
+    """Put others in place of the vectors that a mask has."""
+    cdef Py_ssize_t i
+    with nogil:
+        for i in range(mask.shape[0]):
+            if mask[i]:
+                vectors[i, 0] = others[i, 0]
+                vectors[i, 1] = others[i, 1]
+                vectors[i, 2] = others[i, 2]

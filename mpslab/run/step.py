@@ -10,7 +10,7 @@ from mpslab.core import plugins
 from mpslab.core.cells import make_cells
 from mpslab.core.neighbors import NeighborList
 from mpslab.core.neighbourhood import Neighbourhood
-from mpslab.core.particles import ParticleSet, add_where, on_axes
+from mpslab.core.particles import ParticleSet, add_where, put_where
 from mpslab.core.stencil import Stencil, make_stencil
 from mpslab.core.timestep import pace
 from mpslab.forcings import forcings_of, total
@@ -339,8 +339,7 @@ def _correct(flow, start, dt):
     """u = u* - (dt/rho) grad p and r = start + u dt, then keep the particles in order."""
     particles = flow.particles
     _press(flow, dt)
-    moved = start + _flight(flow, dt)
-    np.copyto(particles.position, moved, where=on_axes(particles.fluid))
+    put_where(particles.fluid, particles.position, start + _flight(flow, dt))
     if flow.case.scheme.projection == "start":
         flow.solids.move(particles, flow.time, dt)
     _stabilise(flow, "corrected", dt)
