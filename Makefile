@@ -12,7 +12,8 @@ help:
 	@echo "make test-checked   the tests of the kernels again, every array index in them checked"
 	@echo "make validation     the quick validation suite; its report lands in runs/validation/quick"
 	@echo "make figures  the paper's figures at 4 mm; they land in runs/paper_figures/quick"
-	@echo "make bench  time steps on 1, 2 and 4 ranks; SPACING=0.002 for the paper's resolution"
+	@echo "make bench  time steps on 1, 2 and 4 ranks, SPACING=0.002 for the paper's resolution;"
+	@echo "            the loops of a step beside their rooflines land in benchmarks/results/"
 	@echo "make pictures   run the tank of docs and draw its pictures anew"
 	@echo "make lint   check the style of the code"
 	@echo "make clean  remove what was built (results in runs/ stay)"
@@ -47,6 +48,7 @@ figures: .venv/tested
 SPACING ?= 0.004
 bench: .venv/benched
 	$(BIN)/python -m pytest benchmarks --spacing=$(SPACING) --benchmark-autosave
+	$(BIN)/python -m benchmarks.report
 
 pictures: .venv/built
 	$(BIN)/python docs/pictures.py

@@ -8,11 +8,13 @@ that a copy of as many bytes takes, measured in the same run, over the time of t
 
 import argparse
 import time
+from functools import cached_property
 
 import numpy as np
 
 from mpslab import Simulation, load_case
 from mpslab.models import friction
+from mpslab.models.stabilisers.shifting import shift
 from mpslab.pressure import equation
 from mpslab.run import step
 
@@ -24,6 +26,12 @@ BYTES = {
     "adjoint": (20, 152),
     "gradient": (20, 168),
     "matrix": (16, 24),
+}
+# Those that have no plain form.
+ALONE = {
+    "shift": (4, 156),
+    "product": (8, 28),
+    "search": (4, 28),  # the last: what it finds has not been measured
 }
 
 
@@ -125,13 +133,29 @@ class Passes:
         return out
 
     def matrix(self):
+        return self._system().diagonal
+
+    def _system(self):
         flow, n = self.flow, len(self.flow.particles)
         none = np.full(n, 1e-9)  # so that all rows are tied to the surface
-        system, _ = equation.assemble(
+        return equation.assemble(
             self.near, flow.laplacian_stencil, flow.pair_terms, flow.case.fluid.density,
             np.zeros(n), flow.particles.fluid, none,
-        )  # fmt: skip
-        return system.diagonal
+        )[0]  # fmt: skip
+
+    def search(self):
+        step.find_neighbors(self.flow)
+
+    def shift(self):
+        place = self.flow.particles.position.copy()
+        shift(self.near, self.near.correction, 1e-9, 1.0)
+        self.flow.particles.position[:] = place
+
+    @cached_property
+    def product(self):
+        system = self._system()
+        x = np.ones(len(system))
+        return lambda: system.multiply(x, np.empty_like(x))
 
 
 def bandwidth(turns):
@@ -155,6 +179,17 @@ def compare(flow, turns):
         off = np.abs(results[passes] - results[plain]).max() / np.abs(results[plain]).max()
         roof = (pair * pairs + particle * len(flow.particles)) / speed
         rows.append((name, 1e9 * fast / pairs, 1e9 * slow / pairs, off, roof / fast))
+    return rows
+
+
+def alone(flow, turns):
+    """Name, ns a pair, and ns a pair of the roofline, of each pass."""
+    passes, speed, pairs = Passes(flow), bandwidth(turns), len(flow.near.other)
+    rows = []
+    for name, (pair, particle) in (BYTES | ALONE).items():
+        spent = np.median([_seconds(getattr(passes, name))[0] for _ in range(turns)])
+        roof = (pair * pairs + particle * len(flow.particles)) / speed
+        rows.append((name, 1e9 * spent / pairs, 1e9 * roof / pairs))
     return rows
 
 

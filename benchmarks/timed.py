@@ -4,6 +4,7 @@ It uses what users use of mpslab, so that it can time any version.  ``python tim
 """
 
 import json
+import resource
 import sys
 import tempfile
 import time
@@ -32,7 +33,8 @@ def stretch(case, changes, start, steps, until, files):
     -------
     dict
         ``steps``, ``seconds`` of this rank and ``cpu`` [s] of all, ``iterations`` a step,
-        ``particles``, and ``phases`` [s] of each phase on this rank.
+        ``particles``, ``phases`` [s] of each phase on this rank, and ``memory``, the most that
+        the process held [bytes].
     """
     case = mpslab.load_case(case, changes)
     with tempfile.TemporaryDirectory() as folder:
@@ -53,6 +55,7 @@ def stretch(case, changes, start, steps, until, files):
             "cpu": sum(run.domain.from_all(cpu)),
             "iterations": float(run.steps["iterations"][first:].mean()),
             "particles": sum(run.domain.from_all(len(run.particles))),
+            "memory": 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss,
             "rank": run.domain.rank,
         }  # fmt: skip
 

@@ -11,13 +11,7 @@ A run that wrote files is read from its folder, at any time:
 >>> run.gauges["time"], run.frames[-1].position
 """
 
-from mpslab.analysis.results import open_run
-from mpslab.cases import load_case
-from mpslab.core.keys import CaseError
-from mpslab.core.plugins import add as add_model
-from mpslab.instruments import Instrument
-from mpslab.run.guard import RunFailed
-from mpslab.simulation import Simulation
+from mpslab.later import names_of
 
 __version__ = "0.1.0"
 __all__ = [
@@ -29,3 +23,15 @@ __all__ = [
     "load_case",
     "open_run",
 ]
+__getattr__, __dir__ = names_of(
+    __name__,
+    {
+        "CaseError": "mpslab.core.keys:CaseError",
+        "Instrument": "mpslab.instruments:Instrument",
+        "RunFailed": "mpslab.run.guard:RunFailed",
+        "Simulation": "mpslab.simulation:Simulation",
+        "add_model": "mpslab.core.plugins:add",
+        "load_case": "mpslab.cases.library:load_case",
+        "open_run": "mpslab.analysis.results:open_run",
+    },
+)

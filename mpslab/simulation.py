@@ -317,7 +317,7 @@ class Simulation:
     def _next_step(self):
         """The next time step [s], and the name of the limit that it follows from."""
         speed = diagnostics.max_speed_together if self.step else diagnostics.max_speed
-        mine = speed(self.particles), self._flow.compression
+        mine = speed(self._flow.particles), self._flow.compression
         speed, compression = np.max(self.domain.from_all(mine), axis=0)
         return timestep.choose(self.case, self.dt, speed, compression)
 

@@ -8,16 +8,10 @@ import traceback
 from pathlib import Path
 
 from mpslab import cases
-from mpslab.cases import catalogue
 from mpslab.core.files import FULL, DiskFull
-from mpslab.output import restart
-from mpslab.output.run_folder import RunFolder, take
 from mpslab.parallel import launch
 from mpslab.parallel.communicator import all_here
 from mpslab.parallel.domain import launched, world
-from mpslab.run.guard import RunFailed
-from mpslab.run.preflight import check_ranks, preflight
-from mpslab.simulation import Simulation
 from mpslab.terminal import Parser, unbroken
 
 DEFAULT_CASE = "plunging_breaker"
@@ -99,16 +93,12 @@ def _main(arguments):
 
 def _prepared(options, arguments, comm, tell):
     """The simulation that is asked for, None if there is nothing to run; ValueError: bad input."""
-    if options.list:
-        for name in cases.names():
-            tell(f"{name:<18} {cases.load_case(name).title}")
+    if _told(options, tell):
         return None
-    if options.show:
-        tell(cases.text(options.show), end="")
-        return None
-    if options.keys is not None:
-        tell(catalogue.text(options.keys or None))
-        return None
+    from mpslab.output.run_folder import RunFolder, take
+    from mpslab.run.preflight import check_ranks, preflight
+    from mpslab.simulation import Simulation
+
     if options.draw and not options.check:
         raise ValueError(f"--draw {options.draw}: allowed together with --check only")
     changes = dict(cases.parse_set(item) for item in options.set)
@@ -140,6 +130,25 @@ def _prepared(options, arguments, comm, tell):
     return Simulation(case, folder)
 
 
+def _told(options, tell):
+    """Tell what there is, if that is asked for; returns whether it was.
+
+    What only a run needs is not loaded yet, so that the answer comes at once.
+    """
+    if options.list:
+        for name, title in cases.titles().items():
+            tell(f"{name:<18} {title}")
+    elif options.show:
+        tell(cases.text(options.show), end="")
+    elif options.keys is not None:
+        from mpslab.cases import catalogue
+
+        tell(catalogue.text(options.keys or None))
+    else:
+        return False
+    return True
+
+
 def _silent(*words, **options):
     """What the ranks but the first say."""
 
@@ -148,6 +157,9 @@ def _case(options, changes):
     """The case to run, or of the run to go on with, and the time [s] that the run has reached."""
     if not options.resume:
         return cases.load_case(options.case or DEFAULT_CASE, changes), 0.0
+    from mpslab.output import restart
+    from mpslab.output.run_folder import RunFolder
+
     for name in ("case", "out", "check"):
         if getattr(options, name):
             raise ValueError(
@@ -186,6 +198,7 @@ def _further(end):
 
 
 def _run(simulation, options, tell):
+    from mpslab.run.guard import RunFailed
     from mpslab.run.progress import make_progress
 
     folder = simulation.folder.path

@@ -1,5 +1,6 @@
 """The benchmarks measure what they say."""
 
+import json
 import sys
 
 import pytest
@@ -9,7 +10,7 @@ from mpslab.core.stopwatch import PHASES
 
 sys.path.append(str(ROOT))  # last: the package under test goes first
 
-from benchmarks import against, pair, passes, program, solvers, timed
+from benchmarks import against, pair, passes, program, report, solvers, timed
 from benchmarks.replay import Replay
 
 SMALL = {"tank.width": 0.0, "particles.spacing": 0.006}
@@ -91,3 +92,21 @@ def test_passes_are_timed_and_agree_with_their_plain_forms():
         assert fast > 0.0 and slow > 0.0
         assert off < 1e-4
         assert share > 0.0
+
+
+def test_report_tells_of_passes_steps_and_memory(tmp_path, monkeypatch):
+    monkeypatch.setattr(report, "SHORT", {"scheme.settling": 0})
+    line = ["--spacings", "0.006", "--steps", "2", "--turns", "1", "--out", str(tmp_path)]
+    report.main(line)
+    files = sorted(tmp_path.iterdir())
+    assert [file.suffix for file in files] == [".json", ".md", ".png"]
+    found = json.loads(files[0].read_text())
+    assert {name for name, *_ in found["passes"]} == set(passes.BYTES) | set(passes.ALONE)
+    assert all(spent > 0.0 and roof > 0.0 for _, spent, roof in found["passes"])
+    assert list(found["steps"]) == ["6 mm, early", "6 mm, mixed"]
+    page = files[1].read_text()
+    assert "| gradient |" in page and "| 6 mm, mixed |" in page and "| kB a particle |" in page
+
+
+def test_a_machine_has_a_name_that_a_file_can_have():
+    assert report.name_of({"cpu": "Intel(R) Xeon(R) E-2", "cores": 4}) == "intel-xeon-e-2-4"

@@ -1,13 +1,13 @@
-"""The built-in cases (a TOML file each in this folder) and the case files of the user."""
+"""Reads a case: a built-in one, or a file of the user."""
 
 import os
 from pathlib import Path
 
 from mpslab.cases import changes, reader
-from mpslab.core.keys import CaseError, did_you_mean, shown
+from mpslab.cases.builtin import FOLDER, names, unknown
+from mpslab.core.keys import CaseError, shown
 from mpslab.core.parameters import NAME, Case
 
-FOLDER = Path(__file__).parent
 MOST_BYTES = 1_000_000  # of a case file
 
 
@@ -38,18 +38,6 @@ def load_case(name_or_path, overrides=None) -> Case:
     return reader.from_tables(changes.apply(tables, overrides or {}), name=_name_of(path))
 
 
-def names() -> tuple[str, ...]:
-    """Names of the built-in cases."""
-    return tuple(sorted(path.stem for path in FOLDER.glob("*.toml")))
-
-
-def text(name: str) -> str:
-    """The TOML file of a built-in case, as written; raises CaseError if there is none."""
-    if name not in names():
-        raise _unknown(name)
-    return _read(FOLDER / f"{name}.toml")
-
-
 def _name_of(path):
     """Name of a case whose file gives none: that of the file, without what a name must not hold."""
     good = "".join(c if c.isprintable() and c not in NAME["forbidden"] else " " for c in path.stem)
@@ -65,15 +53,8 @@ def _find(name_or_path):
         return FOLDER / f"{name_or_path}.toml"
     path = Path(name_or_path)
     if path.suffix != ".toml" and not os.path.isfile(path):
-        raise _unknown(str(name_or_path))
+        raise unknown(str(name_or_path))
     return path.absolute()
-
-
-def _unknown(name):
-    hint = did_you_mean(name, names())
-    return CaseError(
-        f"case = {shown(name)}: must be one of {', '.join(names())}, or a .toml file{hint}"
-    )
 
 
 def _read(path):

@@ -6,7 +6,7 @@ ranks.
 
 import numpy as np
 
-from mpslab.core.particles import FACE, FILLER, PISTON, TANK
+from mpslab.core.particles import FACE, FILLER, PISTON, TANK, squares
 
 
 def particle_volume(stencil):
@@ -14,11 +14,13 @@ def particle_volume(stencil):
     return stencil.spacing**stencil.dim
 
 
-def max_speed(particles):
-    """Largest speed of the water and of the faces that move [m/s]; 0 when there are none."""
-    moving = (particles.role != FILLER) & (particles.body != TANK)
-    square = np.einsum("ij,ij->i", particles.velocity, particles.velocity)
-    return float(np.sqrt(square[moving].max(initial=0.0)))
+def max_speed(particles, counts=True):
+    """Largest speed of the water and of the faces that move [m/s]; 0 when there are none.
+
+    counts : (n,) bool, of those that count, all by default
+    """
+    moving = (particles.role != FILLER) & (particles.body != TANK) & counts
+    return float(np.sqrt(squares(particles.velocity).max(initial=0.0, where=moving)))
 
 
 def max_speed_together(particles):
@@ -26,13 +28,12 @@ def max_speed_together(particles):
 
     The number density of such water is zero; before the first step that of all water is.
     """
-    alone = particles.fluid & (particles.number_density == 0.0)
-    return max_speed(particles.take(~alone) if alone.any() else particles)
+    return max_speed(particles, ~particles.fluid | (particles.number_density != 0.0))
 
 
 def kinetic_energy(particles, stencil, density, total=np.sum):
     """Sum of m u^2 / 2 over the fluid; in 2-D for a slice 1 m wide [J]."""
-    square = np.einsum("ij,ij->i", particles.velocity, particles.velocity)
+    square = squares(particles.velocity)
     mass = density * particle_volume(stencil)
     return 0.5 * mass * float(total(np.where(particles.fluid, square, 0.0)))
 

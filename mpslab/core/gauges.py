@@ -64,11 +64,11 @@ def surface_elevation(position, role, spacing, x, y=0.0, width=0.0):
         return np.nan
     lowest = np.floor(height.min()) - 2
     count = POINTS * int(np.ceil(height.max()) + 2 - lowest) + 1
-    level = lowest + np.arange(count) / POINTS
     fluid, solid = np.zeros(count), np.zeros(count)
     column.spread(height - lowest, weight, is_fluid.view(np.uint8), POINTS, fluid, solid)
-    room = np.maximum(1.0 - solid, LEAST_ROOM)
-    return spacing * _top(level, fluid - 0.5 * room, fluid + solid >= 0.5)
+    gap = int(LARGEST_GAP * POINTS)
+    point, part = column.top(fluid, solid, gap, LEAST_ROOM)
+    return spacing * (lowest + point / POINTS + part / POINTS)
 
 
 def _column(position, spacing, x, y, width):
@@ -81,23 +81,6 @@ def _column(position, spacing, x, y, width):
 def _minimal_image(offset, width):
     """Distance in y to the nearest of the periodic images."""
     return offset - width * np.round(offset / width) if width else offset
-
-
-def _top(level, excess, occupied):
-    """Highest zero of the excess of water in the lowest connected part of a column.
-
-    The excess is linear between points; it is negative at the last one.
-    """
-    filled = np.flatnonzero(occupied)
-    if not len(filled):
-        return np.nan
-    gaps = np.flatnonzero(np.diff(filled) > LARGEST_GAP * POINTS)
-    end = filled[gaps[0]] if len(gaps) else filled[-1]
-    wet = np.flatnonzero(excess[: end + 1] >= 0.0)
-    if not len(wet):
-        return np.nan
-    k = wet[-1]
-    return level[k] + excess[k] / (excess[k] - excess[k + 1]) / POINTS
 
 
 def probe(position, velocity, pressure, role, spacing, point, width=0.0):

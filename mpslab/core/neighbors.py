@@ -69,7 +69,7 @@ class NeighborList:
         beside = _beside(count[1], reach[1], cells.width > 0.0)
         self.indptr, begin = np.empty(n + 1, np.int32), np.empty(n, np.int32)
         while True:
-            nearby = np.empty((2, self._scratch), np.int32)
+            nearby = np.empty(self._scratch, np.int32)
             used = neighbors.search(
                 packed, active.view(np.uint8), start, count, reach, beside, radius, cells.width,
                 self.indptr, self._indices, nearby, np.zeros((3, self._scratch)), begin,

@@ -5,7 +5,7 @@ from copy import copy
 import numpy as np
 
 from mpslab.core.particles import no_particles
-from mpslab.kernels import divergence, measure, moments, repulsion
+from mpslab.kernels import divergence, measure, moments, repulsion, vectors
 
 # Near the free surface the moment is one-sided and its inverse large: one layer would push the
 # next away.  There C = I, and the pair of the conservative gradient is that of p_i + p_j.
@@ -190,8 +190,8 @@ class Neighbourhood:
         return self._close
 
 
-def padded(vectors):
+def padded(rows):
     """Vectors with a fourth number, 0: (n, 3) -> (n, 4) float64."""
-    out = np.zeros((len(vectors), 4))
-    out[:, :3] = vectors
+    out = np.empty((len(rows), 4))
+    vectors.pad(rows, out)
     return out

@@ -4,6 +4,8 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from mpslab.kernels import vectors as vectors_
+
 # Roles: what a particle is to the equations.
 FLUID, FACE, FILLER = range(3)
 # Bodies: whose it is. After these come the solids of the case, obstacles before gates.
@@ -15,9 +17,20 @@ def carries_pressure(role):
     return role != FILLER
 
 
-def on_axes(mask):
-    """A mask of particles for their vectors: (n,) bool -> (n, 3) bool."""
-    return np.repeat(mask, 3).reshape(-1, 3)
+def add_where(mask, vectors, change):
+    """Add to the vectors (n, 3) that a mask (n,) bool has a change [(3,) or (n, 3)], in place."""
+    vectors_.add(vectors, np.atleast_2d(change), mask.view(np.uint8))
+
+
+def put_where(mask, vectors, others):
+    """Put others (n, 3) in place of the vectors (n, 3) that a mask (n,) bool has."""
+    vectors_.put(vectors, others, mask.view(np.uint8))
+
+
+def squares(vectors):
+    """Squares of the lengths of vectors: (n, 3) -> (n,), the same bits on any machine."""
+    x, y, z = vectors.T
+    return x * x + z * z + y * y
 
 
 @dataclass

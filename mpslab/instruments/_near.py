@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from mpslab.kernels import column
+
 
 def read_near(flow, places, reach, read):
     """What `read` makes of the particles near some places, the same on all ranks.
@@ -29,8 +31,8 @@ def read_near(flow, places, reach, read):
 
 def _near(flow, places, reach):
     """This rank's particles within the reach of a place."""
-    particles = flow.particles
-    near = np.zeros(len(particles), bool)
-    for x in places:
-        near |= np.abs(particles.position[:, 0] - x) < reach
-    return particles.take(near)
+    starts, ends = np.sort(places) - reach, np.sort(places) + reach
+    apart = starts[1:] > ends[:-1]
+    starts, ends = starts[np.append(True, apart)], ends[np.append(apart, True)]
+    rows = np.empty(len(flow.particles), np.int32)
+    return flow.particles.take(rows[: column.within(flow.particles.position, starts, ends, rows)])

@@ -63,3 +63,53 @@ def spread(const double[::1] height, const double[::1] weight, const unsigned ch
                     fluid[k] += value
                 else:
                     solid[k] += value
+
+
+def top(const double[::1] fluid, const double[::1] solid, int gap, double least_room):
+    """Where water fills half of the room that the solids leave, highest in the lowest connected
+    part of a column.
+
+    The excess of water over that half is linear between points; it is negative at the last one.
+
+    fluid, solid : (m,) shares at the points
+    gap : the column ends where more points in a row than that, less one, have half of nothing
+    least_room : share that counts as left where it is less
+
+    Returns a point, and which part of the way to the next one; -1 and not-a-number where it does
+    nowhere.
+    """
+    cdef Py_ssize_t k, last = -1, wet = -1
+    cdef double excess, above, part = float("nan")
+    with nogil:
+        for k in range(fluid.shape[0]):
+            if fluid[k] + solid[k] < 0.5:
+                continue
+            if last >= 0 and k - last > gap:
+                break
+            last = k
+            if fluid[k] >= 0.5 * max(1.0 - solid[k], least_room):
+                wet = k
+        if wet >= 0:
+            excess = fluid[wet] - 0.5 * max(1.0 - solid[wet], least_room)
+            above = fluid[wet + 1] - 0.5 * max(1.0 - solid[wet + 1], least_room)
+            part = excess / (excess - above)
+    return wet, part
+
+
+def within(const double[:, ::1] position, const double[::1] starts, const double[::1] ends,
+           int[::1] rows):
+    """rows = the particles between a start and the end that belongs to it, along the tank [m].
+
+    Returns how many there are.
+    """
+    cdef Py_ssize_t i, k
+    cdef int found = 0
+    cdef bint inside
+    with nogil:
+        for i in range(position.shape[0]):
+            inside = False
+            for k in range(starts.shape[0]):
+                inside |= starts[k] < position[i, 0] < ends[k]
+            rows[found] = <int>i
+            found += inside
+    return found

@@ -59,4 +59,50 @@ INLINE four nearest(four v, double width) {
     return v - (four)((v > half) & period) + (four)((v < -half) & period);
 }
 
+/* Which of four places, less another one, are nearer than the root of the limit: a bit each. */
+INLINE int near_four(four x, four y, four z, double limit, double width) {
+    four half = {0.5 * width, 0.5 * width, 0.5 * width, 0.5 * width};
+    four_masks period = (four_masks)(half + half);
+    y = y - (four)((y > half) & period) + (four)((y < -half) & period);
+    four square = x * x + y * y + z * z;
+    four_masks near = square < limit;
+#ifdef __AVX__
+    return _mm256_movemask_pd((__m256d)near);
+#else
+    return (near[0] & 1) | (near[1] & 2) | (near[2] & 4) | (near[3] & 8);
+#endif
+}
+
+/* Which of eight places, whose coordinates lie in rows of memory, are near (x, y, z). */
+INLINE int near_eight(const double *xs, const double *ys, const double *zs, double x, double y,
+                      double z, double limit, double width) {
+    return near_four(load(xs) - x, load(ys) - y, load(zs) - z, limit, width)
+        | near_four(load(xs + 4) - x, load(ys + 4) - y, load(zs + 4) - z, limit, width) << 4;
+}
+
+/* For each choice among eight, a bit each: the numbers of those chosen, a byte each. */
+static unsigned long long chosen[256];
+
+/* To be called before `squeeze`. */
+static inline void prepare_squeeze(void) {
+    for (int choice = 0; choice < 256; choice++) {
+        unsigned long long numbers = 0;
+        for (int k = 7; k >= 0; k--)
+            if (choice >> k & 1) numbers = numbers << 8 | k;
+        chosen[choice] = numbers;
+    }
+}
+
+/* Write those chosen of eight numbers to the front, anything behind them; how many there are. */
+INLINE int squeeze(int *to, const int *from, int choice) {
+#ifdef __AVX2__
+    __m256i order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)chosen[choice]));
+    __m256i all = _mm256_loadu_si256((const __m256i *)from);
+    _mm256_storeu_si256((__m256i *)to, _mm256_permutevar8x32_epi32(all, order));
+#else
+    for (int k = 0; k < 8; k++) to[k] = from[chosen[choice] >> 8 * k & 7];
+#endif
+    return __builtin_popcount(choice);
+}
+
 #endif

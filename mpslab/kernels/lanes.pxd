@@ -15,3 +15,7 @@ cdef extern from "lanes.h" nogil:
     four times(double factor, four v) noexcept
     four plus(four total, double factor, four v) noexcept
     four nearest(four v, double width) noexcept
+    int near_eight(const double* xs, const double* ys, const double* zs, double x, double y,
+                   double z, double limit, double width) noexcept
+    void prepare_squeeze() noexcept
+    int squeeze(int* to, const int* numbers, int choice) noexcept

@@ -4,8 +4,9 @@ The search goes along x, row after row of cells.  From one cell to the next, the
 be neighbours change by one layer of cells: they lie in a scratch one after the other, and a layer
 is added at its end.
 """
-from libc.math cimport rint
 from libc.string cimport memcpy
+
+from mpslab.kernels.lanes cimport near_eight, prepare_squeeze, squeeze
 
 cdef enum:
     LANES = 8  # particles that are copied, and whose distances are taken, together
@@ -14,7 +15,7 @@ cdef enum:
 
 def search(const double[:, ::1] packed, const unsigned char[::1] active, const int[::1] start,
            const int[::1] count, const int[::1] reach, const int[:, ::1] beside, double radius,
-           double width, int[::1] indptr, int[::1] indices, int[:, ::1] nearby,
+           double width, int[::1] indptr, int[::1] indices, int[::1] nearby,
            double[:, ::1] block, int[::1] begin, int[::1] found):
     """Rows of the neighbours of the active particles, each ascending.
 
@@ -24,7 +25,7 @@ def search(const double[:, ::1] packed, const unsigned char[::1] active, const i
     count, reach : (3,) cells of the grid, and how many of them away neighbours may be
     beside : (count[1], .) cells across the tank with neighbours of each, ascending, then -1
     indptr : (n + 1,) out, indices : out
-    nearby : (2, .) scratch, the candidates, and 1 for those that are near
+    nearby : scratch, the candidates
     block : (3, .) scratch, the coordinates of the candidates
     begin : (n,), found : scratch, rows in the order in which they are found; as long as `indices`
 
@@ -32,6 +33,7 @@ def search(const double[:, ::1] packed, const unsigned char[::1] active, const i
     """
     cdef int x, y, z, end = 0, plane = count[1] * count[2]
     cdef Py_ssize_t first = 0, last, i, used, total = 0, capacity = indices.shape[0]
+    prepare_squeeze()
     with nogil:
         while end < count[0]:
             x, end = end, min(end + STRETCH, count[0])
@@ -59,7 +61,7 @@ def search(const double[:, ::1] packed, const unsigned char[::1] active, const i
 cdef Py_ssize_t walk(const double[:, ::1] packed, const unsigned char[::1] active,
                      const int[::1] start, const int[::1] count, const int[::1] reach,
                      const int[:, ::1] beside, double radius, double width, int x, int end, int y,
-                     int z, int[::1] length, int[:, ::1] nearby, double[:, ::1] block,
+                     int z, int[::1] length, int[::1] nearby, double[:, ::1] block,
                      int[::1] begin, int[::1] found, Py_ssize_t used) noexcept nogil:
     """Rows of the particles in the cells from x to end along a line; returns the entries used.
 
@@ -68,7 +70,7 @@ cdef Py_ssize_t walk(const double[:, ::1] packed, const unsigned char[::1] activ
     cdef int[2 * STRETCH] layer  # where each layer of candidates begins, those in reach included
     cdef int cx, c, low, high, next = 0, lowest = max(x - reach[0], 0)
     cdef Py_ssize_t i, m, filled = 0, own
-    cdef Py_ssize_t room = nearby.shape[1] - LANES, capacity = found.shape[0]
+    cdef Py_ssize_t room = nearby.shape[0] - LANES, capacity = found.shape[0]
     cdef bint wanted
     for cx in range(x, end):
         c = (cx * count[1] + y) * count[2] + z
@@ -95,19 +97,17 @@ cdef Py_ssize_t walk(const double[:, ::1] packed, const unsigned char[::1] activ
                 continue
             if used + filled - m + LANES > capacity:
                 return -1
-            mark(block, m, filled, packed[0, i], packed[1, i], packed[2, i], radius * radius,
-                 width, nearby)
-            nearby[1, own] = 0
-            own += 1
             begin[i] = <int>used
-            used = pick(nearby, m, filled, found, used)
+            used = pick(block, nearby, m, filled, own, packed[0, i], packed[1, i], packed[2, i],
+                        radius * radius, width, found, used)
+            own += 1
             length[i] = <int>used - begin[i]
     return used
 
 
 cdef Py_ssize_t add_layer(const double[:, ::1] packed, const int[::1] start,
                           const int[::1] count, const int[::1] reach, const int[:, ::1] beside,
-                          int x, int y, int z, int[:, ::1] nearby, double[:, ::1] block,
+                          int x, int y, int z, int[::1] nearby, double[:, ::1] block,
                           Py_ssize_t filled, Py_ssize_t room) noexcept nogil:
     """Append the particles in the cells around (y, z) at x; returns how many there are now."""
     cdef int low = max(z - reach[2], 0), high = min(z + reach[2] + 1, count[2]), base
@@ -124,7 +124,7 @@ cdef Py_ssize_t add_layer(const double[:, ::1] packed, const int[::1] start,
             memcpy(&block[1, filled], &packed[1, m], LANES * sizeof(double))
             memcpy(&block[2, filled], &packed[2, m], LANES * sizeof(double))
             for k in range(LANES):
-                nearby[0, filled + k] = <int>(m + k)
+                nearby[filled + k] = <int>(m + k)
             filled += min(end - m, LANES)
             m += LANES
     return filled
@@ -143,42 +143,24 @@ cdef inline Py_ssize_t ahead(const int[::1] start, const int[::1] count, const i
     return before
 
 
-cdef inline void mark(const double[:, ::1] block, Py_ssize_t first, Py_ssize_t end, double x,
-                      double y, double z, double limit, double width,
-                      int[:, ::1] nearby) noexcept nogil:
-    """Mark the candidates whose squared distance from a place is below the limit.
+cdef inline Py_ssize_t pick(const double[:, ::1] block, const int[::1] nearby, Py_ssize_t first,
+                            Py_ssize_t end, Py_ssize_t own, double x, double y, double z,
+                            double limit, double width, int[::1] found,
+                            Py_ssize_t used) noexcept nogil:
+    """Append the candidates whose squared distance from a place is below the limit, but `own`;
+    returns the entries used.
 
-    All of them in full lanes, the last ones with what lies behind: so a pair has the same distance
-    from either side, to the last bit.
+    All of them in full lanes, so that a pair has the same distance from either side, to the last
+    bit.
     """
-    cdef Py_ssize_t m
-    cdef double dx, dy, dz, around
-    end = first + (end - first + LANES - 1) // LANES * LANES
-    if width == 0.0:
-        for m in range(first, end):
-            dx = block[0, m] - x
-            dy = block[1, m] - y
-            dz = block[2, m] - z
-            nearby[1, m] = dx * dx + dy * dy + dz * dz < limit
-    else:
-        around = 1.0 / width
-        for m in range(first, end):
-            dx = block[0, m] - x
-            dy = block[1, m] - y
-            dy = dy - width * rint(dy * around)
-            dz = block[2, m] - z
-            nearby[1, m] = dx * dx + dy * dy + dz * dz < limit
-
-
-cdef inline Py_ssize_t pick(int[:, ::1] nearby, Py_ssize_t first, Py_ssize_t end,
-                            int[::1] found, Py_ssize_t used) noexcept nogil:
-    """Append the candidates that are marked, without a branch; returns the entries used."""
-    cdef Py_ssize_t m = first, k
-    for k in range(end, end + LANES):
-        nearby[1, k] = 0
+    cdef Py_ssize_t m = first
+    cdef int near
     while m < end:
-        for k in range(LANES):
-            found[used] = nearby[0, m + k]
-            used += nearby[1, m + k]
+        near = near_eight(&block[0, m], &block[1, m], &block[2, m], x, y, z, limit, width)
+        if m + LANES > end:
+            near &= (1 << (end - m)) - 1
+        if m <= own < m + LANES:
+            near &= ~(1 << (own - m))
+        used += squeeze(&found[used], &nearby[m], near)
         m += LANES
     return used

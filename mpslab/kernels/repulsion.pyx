@@ -2,7 +2,11 @@
 from libc.math cimport sqrt
 
 from mpslab.kernels.lanes cimport four, lane, load, minus, nearest, nothing, plus, times
-from mpslab.kernels.pair cimport FLUID, distance, has_pressure, plus_turned, weight, wrap
+from mpslab.kernels.pair cimport FLUID, LANES, distance, has_pressure, plus_turned, weight, wrap
+
+# Neighbours of a particle whose distances are taken together; a multiple of LANES.
+cdef enum:
+    PART = 64
 
 
 def shift(const double[:, ::1] position, const int[::1] row, const int[::1] solid,
@@ -18,22 +22,28 @@ def shift(const double[:, ::1] position, const int[::1] row, const int[::1] soli
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
     cdef double length, scale
-    cdef four here, of_water, of_solids, turned_, v
+    cdef double[PART] factors
+    cdef four of_water, of_solids, turned_, v
+    cdef four[PART] r
+    cdef int begin, end
     cdef Py_ssize_t i, k, a
     with nogil:
         for i in range(moves.shape[0]):
             out[i, 0] = out[i, 1] = out[i, 2] = 0.0
             if not moves[i]:
                 continue
-            here = load(&position[i, 0])
             of_water = of_solids = turned_ = nothing()
-            for k in range(row[i], solid[i]):
-                v = pull_of(minus(load(&position[other[k], 0]), here), radius, width, floor)
-                of_water = plus(of_water, 1.0, v)
-                turned_ = plus_turned(turned_, &c[other[k], 0, 0], v)
-            for k in range(solid[i], row[i + 1]):
-                v = pull_of(minus(load(&position[other[k], 0]), here), radius, width, floor)
-                of_solids = plus(of_solids, 1.0, v)
+            end = row[i]
+            while end < row[i + 1]:
+                begin, end = end, min(end + PART, row[i + 1])
+                pulls(&position[0, 0], i, &other[begin], end - begin, radius, width, floor, r,
+                      factors)
+                for k in range(begin, min(end, solid[i])):
+                    v = times(factors[k - begin], r[k - begin])
+                    of_water = plus(of_water, 1.0, v)
+                    turned_ = plus_turned(turned_, &c[other[k], 0, 0], v)
+                for k in range(max(begin, solid[i]), end):
+                    of_solids = plus(of_solids, factors[k - begin], r[k - begin])
             turned_ = plus_turned(turned_, &c[i, 0, 0], plus(of_water, 2.0, of_solids))
             length = 0.5 * factor * sqrt(lane(turned_, 0) ** 2 + lane(turned_, 1) ** 2
                                          + lane(turned_, 2) ** 2)
@@ -42,12 +52,24 @@ def shift(const double[:, ::1] position, const int[::1] row, const int[::1] soli
                 out[i, a] = scale * lane(turned_, a)
 
 
-cdef inline four pull_of(four r, double radius, double width, double floor) noexcept nogil:
-    """r_ij w/r^2 of a difference of places [m]."""
+cdef inline void pulls(const double* position, Py_ssize_t i, const int* other, int count,
+                       double radius, double width, double floor, four* r,
+                       double* factors) noexcept nogil:
+    """r_ij [m] and w/r^2 [1/m2] of up to PART neighbours of a particle.
+
+    The factors are worked on LANES at a time, always, whatever lies behind the last one.
+    """
+    cdef four here = load(position + 4 * i)
     cdef double inverse
-    r = nearest(r, width)
-    inverse = 1.0 / distance(lane(r, 0), lane(r, 1), lane(r, 2), floor)
-    return times(weight(inverse, radius) * inverse * inverse, r)
+    cdef int k, lane_, block
+    for k in range(count):
+        r[k] = nearest(minus(load(position + 4 * other[k]), here), width)
+        factors[k] = lane(r[k], 0) ** 2 + lane(r[k], 1) ** 2 + lane(r[k], 2) ** 2
+    for block in range((count + LANES - 1) // LANES):
+        for lane_ in range(LANES):
+            inverse = sqrt(factors[block * LANES + lane_])
+            inverse = 1.0 / (inverse if inverse > floor else floor)
+            factors[block * LANES + lane_] = weight(inverse, radius) * inverse * inverse
 
 
 def moved(const double[:, ::1] position, const double[:, ::1] before, double width,
@@ -80,8 +102,9 @@ def close(const int[::1] row, const int[::1] other, const float[::1] inverse, do
             close_row[i] = found
             reach = distance + path[i]
             for k in range(row[i], row[i + 1]):
-                close_other[found] = other[k]
-                found += inverse[k] * (reach + path[other[k]]) >= 1.0 - 1e-6
+                if inverse[k] * (reach + path[other[k]]) >= 1.0 - 1e-6:
+                    close_other[found] = other[k]
+                    found += 1
         close_row[close_row.shape[0] - 1] = found
     return found
 

@@ -42,7 +42,7 @@ def grade_surface(near):
     0 inside, 1 at the surface or in spray, and in between smooth: so a particle on its way to the
     surface does not switch from one condition to the other.  Sets ``particles.surface`` as well.
     """
-    rows = np.flatnonzero(near.particles.fluid)
+    rows = _near_surface(near)
     share = near.number_density[rows] / near.stencil.n0
     side = _between(_lopsided(near, rows), *GRADE_LOPSIDED)
     t = np.maximum(side, _between(share, *GRADE_SPRAY))
@@ -85,6 +85,14 @@ def _lattice_sum(stencil, pair_terms):
     return float(np.sum((one + inverse / r + cubic / r**3)[r < stencil.radius]))
 
 
+def _near_surface(near):
+    """Rows of the water that may have a grade above 0; inside, which is nearly all, none has."""
+    rows = np.empty(len(near.particles), np.int32)
+    side = (GRADE_LOPSIDED[0] + _more_lopsided(near.stencil)) * near.stencil.spacing
+    share = GRADE_SPRAY[0] * near.stencil.n0
+    return rows[: density.thin_or_lopsided(near.particles.role, near.first, share, side, rows)]
+
+
 def _lopsided(near, rows):
     """|sum_j w r_ij| / sum_j w of rows: how lopsided the neighbours are [spacings], (m,).
 
@@ -93,5 +101,8 @@ def _lopsided(near, rows):
     stencil, sums = near.stencil, near.first.take(rows, 0)
     length = np.sqrt(np.einsum("ij,ij->i", sums[:, :3], sums[:, :3]))
     total = np.where(sums[:, 3] > 0.0, sums[:, 3], 1.0)
-    more = max(stencil.lopsided / stencil.spacing - SECOND_LAYER, 0.0)
-    return length / total / stencil.spacing - more
+    return length / total / stencil.spacing - _more_lopsided(stencil)
+
+
+def _more_lopsided(stencil):
+    return max(stencil.lopsided / stencil.spacing - SECOND_LAYER, 0.0)

@@ -9,7 +9,7 @@ bed half the pressure difference of a layer.
 
 import numpy as np
 
-from mpslab.core.particles import FLUID, on_axes
+from mpslab.core.particles import FLUID, add_where
 from mpslab.kernels import walls as kernels
 
 
@@ -25,15 +25,17 @@ def pull(particles, before, force, dt, moving):
     moving : (n,) bool
         Particles of solids whose acceleration the water feels.
     """
-    out = np.zeros_like(before)
-    out[moving] = (before[moving] - particles.velocity[moving]) / dt
-    out += force
+    out, rows = np.zeros_like(before), np.flatnonzero(moving)
+    out[rows] = (before.take(rows, 0) - particles.velocity.take(rows, 0)) / dt
+    add_where(np.ones(len(out), bool), out, force)
     return out
 
 
 def predicted_velocity(particles, pull_, dt):
     """u* of all particles, before the pressure acts; of solids too, u* = u_wall + (f - a) dt."""
-    return particles.velocity + dt * pull_ * on_axes(particles.role != FLUID)
+    velocity = particles.velocity.copy()
+    add_where(particles.role != FLUID, velocity, dt * pull_)
+    return velocity
 
 
 def flux(near, stencil, pair_terms, pull_):

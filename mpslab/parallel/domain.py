@@ -22,6 +22,7 @@ import numpy as np
 from mpslab.core.cells import make_cells
 from mpslab.core.particles import ParticleSet
 from mpslab.core.stopwatch import COMMUNICATION, WAITING, WORK, Stopwatch
+from mpslab.kernels import vectors
 from mpslab.parallel import balance, headcount, rebalance
 from mpslab.parallel.communicator import Alone, Patience, finish, meet, on_root
 
@@ -146,7 +147,7 @@ class Domain:
         if self.size > 1:
             arrays = self._share(arrays)
         order = self.cells.order(arrays[POSITION], arrays[GID])
-        arrays = [a.take(order, 0) for a in arrays]
+        arrays = [_ordered(a, order) for a in arrays]
         self._find_halo(self._slab_of(arrays))
         count = len(fields(ParticleSet))
         return ParticleSet(*arrays[:count]), arrays[count:]
@@ -328,6 +329,15 @@ GID, POSITION = ([f.name for f in fields(ParticleSet)].index(name) for name in (
 def arrays_of(particles):
     """The arrays of a ParticleSet, in the order of its fields."""
     return [getattr(particles, f.name) for f in fields(particles)]
+
+
+def _ordered(array, order):
+    """Rows of an array (n, ...) in an order (n,) int32."""
+    if array.ndim == 1:
+        return array.take(order)
+    out = np.empty_like(array)
+    vectors.take(array, order, out)
+    return out
 
 
 def _joined(arrays, come, stay=None):

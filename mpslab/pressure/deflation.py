@@ -194,10 +194,17 @@ def group_rows(system, merged):
     """Group of each row, (m,) int32, the same numbers on every rank; and the keys of all groups."""
     key = keys(system.blocks.of_rows, system.cell, merged)
     begin, end = system.blocks.own
-    groups, number = number_groups(system.blocks.from_all(np.unique(key[begin:end])))
+    own, first = key[begin:end], _runs(key)
+    groups, number = number_groups(system.blocks.from_all(np.unique(own[_runs(own)])))
     ordered = np.empty_like(groups)
     ordered[number] = groups
-    return number[np.searchsorted(groups, key)], ordered
+    length = np.diff(first, append=len(key))
+    return number[np.searchsorted(groups, key[first])].repeat(length), ordered
+
+
+def _runs(key):
+    """Where the runs of equal keys begin: rows that follow each other are mostly of one group."""
+    return np.flatnonzero(np.diff(key, prepend=-1))
 
 
 def keys(slab, cell, merged):

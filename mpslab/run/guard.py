@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mpslab.core.lattice import effective_length, rows_across
+from mpslab.kernels import tank as kernels
 from mpslab.solids import obstacles, shaped
 
 MOST_LOST = 1e-3  # of the fluid particles at the start
@@ -33,7 +34,7 @@ def find_lost(case, particles, face):
     face : float [m]
         x of the wavemaker's face.
     """
-    suspects = np.flatnonzero(_may_be_lost(case, particles, face))
+    suspects = _may_be_lost(case, particles, face)
     spacing, position = case.particles.spacing, particles.position.take(suspects, 0)
     first = "the wall at x = 0" if case.wavemaker.type == "none" else "the wavemaker"
     walls = [
@@ -65,17 +66,19 @@ def find_lost(case, particles, face):
 
 
 def _may_be_lost(case, particles, face):
-    """Mask of the water behind a wall, or lower than the highest bed; as a rule that is little."""
-    x, y, z = particles.position.T
-    suspect = (x < face) | (x > min(effective_length(case), case.tank.length))
-    suspect |= z < max((height for _, height in case.tank.bed), default=0.0)
-    if case.tank.width > 0.0 and not case.tank.periodic:
-        suspect |= (y < 0.0) | (y > rows_across(case) * case.particles.spacing)
-    if case.tank.lid:
-        suspect |= z > case.tank.height
+    """Rows of the water behind a wall or below the bed; as a rule that is little."""
     if case.obstacle or case.solid:
-        suspect[:] = True
-    return suspect & particles.fluid
+        return np.flatnonzero(particles.fluid)
+    tank, rows = case.tank, np.empty(len(particles), np.int32)
+    low = np.array([face, -np.inf, -np.inf])
+    high = np.array([min(effective_length(case), tank.length), np.inf, np.inf])
+    if tank.width > 0.0 and not tank.periodic:
+        low[1], high[1] = 0.0, rows_across(case) * case.particles.spacing
+    if tank.lid:
+        high[2] = tank.height
+    return rows[: kernels.outside(
+        particles.position, particles.role, low, high, np.array(tank.bed, float), rows
+    )]  # fmt: skip
 
 
 def check_finite(flow, step):

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mpslab.core.particles import on_axes
+from mpslab.core.particles import add_where, put_where
 from mpslab.core.timestep import pace
 from mpslab.forcings import total
 from mpslab.models import copied, friction, surface, wall_pressure
@@ -69,9 +69,9 @@ def _predict(flow, dt):
     particles = flow.particles
     flow.solids.advance(flow.time, dt, flow.readings)
     flow.solids.push(particles, flow.time, dt)
-    particles.velocity += dt * force_on(flow, dt) * on_axes(particles.fluid)
+    add_where(particles.fluid, particles.velocity, dt * force_on(flow, dt))
     if flow.case.scheme.projection == "predicted":
-        particles.position += _flight(flow, dt) * on_axes(particles.fluid)
+        add_where(particles.fluid, particles.position, _flight(flow, dt))
         flow.solids.move(particles, flow.time, dt)
 
 
@@ -186,8 +186,7 @@ def _correct(flow, start, dt):
     """u = u* - (dt/rho) grad p and r = start + u dt, then keep the particles in order."""
     particles = flow.particles
     _press(flow, dt)
-    moved = start + _flight(flow, dt)
-    np.copyto(particles.position, moved, where=on_axes(particles.fluid))
+    put_where(particles.fluid, particles.position, start + _flight(flow, dt))
     if flow.case.scheme.projection == "start":
         flow.solids.move(particles, flow.time, dt)
     _stabilise(flow, "corrected", dt)
@@ -229,6 +228,8 @@ def _flight(flow, dt):
     not pass through what it meets.
     """
     path, furthest = dt * flow.particles.velocity, FURTHEST * flow.stencil.spacing
+    if max(path.max(initial=0.0), -path.min(initial=0.0)) < 0.5 * furthest:
+        return path
     square = np.einsum("ij,ij->i", path, path)
     far = np.flatnonzero(square > furthest**2)
     path[far] *= (furthest / np.sqrt(square[far]))[:, np.newaxis]
