@@ -66,7 +66,7 @@ def absorbing(case, paddle):
     delay = 0.5 * case.time.maximum
     one = len(rate) == 1
     law = absorption.tuned(gauge, delay) if one else absorption.fitted(gauge, amplitude, delay)
-    level = _Level(paddle, absorption.Memory(depth, gravity, window))
+    level = _Level(paddle, absorption.Memory(depth, gravity, window), window)
     bias = case.initial.type == "rest" and not case.water
     absorber = Absorber(
         law, level, room, None if bias else case.tank.depth, FASTEST * math.sqrt(gravity * depth),
@@ -115,8 +115,9 @@ def _facts(law, gauge, amplitude, room):
 class _Level:
     """Level above still water that a paddle's own motion is expected to make at its gauge [m]."""
 
-    def __init__(self, paddle, memory):
-        self.path, self.beyond, self.memory = paddle.path, paddle.beyond, memory
+    def __init__(self, paddle, memory, window):
+        self.path, self.memory = paddle.path, memory
+        self.beyond = paddle.beyond(window) if paddle.beyond else None
 
     def __call__(self, time):
         found = self.memory(self.path, time)

@@ -40,9 +40,9 @@ class Paddle:
         The displacement at many times, for what has to know where the face has been.
     waves : (rate (n,) float64 [rad/s], amplitude (n,) float64 [m]), or ()
         Of what waves the motion is made, where its theory says so.
-    beyond : function (t : float [s]) -> float [m], or None
-        Level at the face beyond what linear theory says of the motion: bound waves, less the free
-        ones that the motion makes against them.
+    beyond : function (reach : float [m]) -> function (t : float [s]) -> float [m], or None
+        Level in front of the face, the mean over a reach, beyond what linear theory says of the
+        motion (`mpslab.solids.wavemakers._bound`).
     """
 
     displacement: Callable[[float], float]
