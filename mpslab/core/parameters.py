@@ -231,7 +231,7 @@ class Wavemaker:
         False,
     )
     room: float = key(
-        "how far absorption may take the piston off its motion; 0 for its stroke",
+        "how far absorption may take the piston off its motion; 0 for twice its stroke",
         0.0,
         unit="m",
         low=0,
@@ -375,11 +375,36 @@ class Output:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Sponge:
+    """A zone in which the water is led to rest, or to a wave; strongest at its end."""
+
+    start: float = key("x where it begins", unit="m", low=0, name="from")
+    end: float = key("x where it ends, most often at the end wall", unit="m", low=0, name="to")
+    strength: float = key(
+        "rate of the damping at its end, in angular frequencies of the wave", 2.0, above=0, high=1e3
+    )
+    period: float = key("period of the wave; 0 for wavemaker.period", 0.0, unit="s", low=0)
+    target: str = key(
+        "what the water is led to: rest, or a regular wave, which the zone so makes",
+        "rest",
+        choices=("rest", "wave"),
+    )
+    height: float = key("height of that wave", 0.0, unit="m", low=0)
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Gauge:
     """A wave gauge: reads the surface elevation at x, y."""
 
     name: str = key("heading of its column", **NAME)
-    x: float = key("distance from the wavemaker at rest", unit="m", low=0)
+    x: float = key(
+        "distance from the wavemaker at rest; a list for a gauge at each place, NAME-1 and so on",
+        unit="m",
+        low=0,
+    )
     y: float | None = key("place across the tank; mid width if left out", None, unit="m", low=0)
 
     def __post_init__(self):
@@ -436,6 +461,7 @@ LISTS = {
     "water": Water,
     "obstacle": Obstacle,
     "gate": Gate,
+    "sponge": Sponge,
     "gauge": Gauge,
     "probe": Probe,
     "force": Force,
@@ -461,6 +487,7 @@ class Case:
     water: tuple[Water, ...] = ()
     obstacle: tuple[Obstacle, ...] = ()
     gate: tuple[Gate, ...] = ()
+    sponge: tuple[Sponge, ...] = ()
     gauge: tuple[Gauge, ...] = ()
     probe: tuple[Probe, ...] = ()
     force: tuple[Force, ...] = ()

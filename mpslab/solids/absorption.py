@@ -18,6 +18,8 @@ LEVEL, EXPECTED = "piston/level", "piston/expected"  # no gauge has such a name
 WINDOW = 3.0  # spacings over which the gauge takes the mean
 FASTEST = 0.5  # sqrt(g h): the speed of absorption, more than that of any wave that does not break
 HARDEST = 0.5  # gravity: its acceleration
+ROOM = 2.0  # strokes, unless the case says
+SLOWING = 0.05  # periods of the peak: in that time it could still reach the end of its room
 SEAS = ("irregular", "focused", "bichromatic")
 
 
@@ -59,7 +61,7 @@ def absorbing(case, paddle):
         "false for an object with a method advance, which moves the piston by what it reads",
     )
     rate, amplitude = _waves(maker, paddle)
-    room = maker.room or paddle.stroke
+    room = maker.room or ROOM * (paddle.farthest - paddle.backmost)
     require(room > 0.0, "wavemaker.room", maker.room, "> 0 m for a piston without its own motion")
     window = WINDOW * case.particles.spacing
     gauge = absorption.Gauge(rate, depth, gravity, window)
@@ -143,7 +145,7 @@ class Absorber:
     def __init__(self, law, expected, room, still, fastest, hardest):
         self.law, self.expected, self.room, self.still = law, expected, room, still
         self.fastest, self.hardest = fastest, hardest
-        self.soften = law.washout / absorption.WASHOUT
+        self.slowing = SLOWING * law.washout / absorption.WASHOUT
         self.begin = self.end = self.old = self.new = self.speed = self.error = self.mean = 0.0
         self.lagged = np.zeros(len(law.lags))
 
@@ -159,10 +161,10 @@ class Absorber:
         if self.still is None:
             self.still = readings[LEVEL]
         self._listen(readings[LEVEL] - self.still - readings[EXPECTED], self.end - self.begin)
-        wanted = -float(self.law.gains @ self.lagged) - self.new / self.law.washout
+        wanted = -float(np.sum(self.law.gains * self.lagged)) - self.new / self.law.washout
         most = self.hardest * dt
         speed = self.speed + min(max(wanted - self.speed, -most), most)
-        ahead, behind = ((self.room - side * self.new) / self.soften for side in (1.0, -1.0))
+        ahead, behind = ((self.room - side * self.new) / self.slowing for side in (1.0, -1.0))
         speed = min(max(speed, -behind, -self.fastest), ahead, self.fastest)
         self.begin, self.end, self.speed = time, time + dt, speed
         self.old, self.new = self.new, self.new + speed * dt

@@ -17,6 +17,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from mpslab.theory.algebra import dot, solve
 from mpslab.theory.dispersion import biesel, evanescent, wave_numbers
 
 MODES = 60  # of the swell beside the piston
@@ -47,6 +48,7 @@ class Gauge:
     out: np.ndarray = field(init=False)  # c0 W
     back: np.ndarray = field(init=False)  # c0 W*
     swell: np.ndarray = field(init=False)  # C
+    slope: np.ndarray = field(init=False)  # of the surface, for a piston of unit amplitude [1/m]
 
     def __post_init__(self):
         number = wave_numbers(self.rate, self.depth, self.gravity)
@@ -54,8 +56,13 @@ class Gauge:
         kappa = evanescent(self.rate, self.depth, self.gravity, MODES)
         across = kappa * self.reach / self.depth
         share = 4.0 * np.sin(kappa) ** 2 / (2.0 * kappa + np.sin(2.0 * kappa))
-        swell = np.sum(share * -np.expm1(-across) / across, axis=0)
-        for name, value in (("out", out), ("back", out.conj()), ("swell", swell)):
+        share *= -np.expm1(-across) / across
+        found = {
+            "out": out, "back": out.conj(),
+            "swell": np.sum(share, axis=0),
+            "slope": number * out - np.sum(share * kappa, axis=0) / self.depth,
+        }  # fmt: skip
+        for name, value in found.items():
             object.__setattr__(self, name, value)
 
     @property
@@ -103,7 +110,7 @@ class Law:
 
     def __call__(self, rate):
         """G at these rates [1/s], (n,) complex128."""
-        return _parts(rate, self.lags, self.washout, self.delay) @ self.gains
+        return dot(_parts(rate, self.lags, self.washout, self.delay), self.gains)
 
 
 def _parts(rate, lags, washout, delay):
@@ -151,9 +158,9 @@ def fitted(gauge, amplitude, delay):
     for _ in range(PASSES):
         scale = weight / np.abs(under)
         rows = above * scale[:, np.newaxis]
-        both = np.concatenate([rows.real, rows.imag])
-        gains = np.linalg.lstsq(both, np.append(scale, np.zeros(len(scale))), rcond=1e-9)[0]
-        under = 1.0 + below @ gains
+        square = np.real(np.sum(rows[:, :, np.newaxis].conj() * rows[:, np.newaxis], axis=0))
+        gains = solve(square, np.sum(rows.real * scale[:, np.newaxis], axis=0))
+        under = 1.0 + dot(below, gains)
     law = Law(gains, lags, washout, delay)
     return law if _is_safe(law, wide) else tuned(replace(gauge, rate=np.array([peak])), delay)
 
@@ -185,7 +192,7 @@ class Memory:
     """
 
     LENGTH, STEPS = 24.0, 16  # sqrt(h/g), and to each
-    HIGHEST = 60.0  # sqrt(g/h): the frequency up to which the transform goes
+    HIGHEST = 30.0  # sqrt(g/h): the frequency up to which the transform goes
 
     def __init__(self, depth, gravity, reach):
         unit = np.sqrt(depth / gravity)
@@ -196,10 +203,10 @@ class Memory:
         number = wave_numbers(rate, depth, gravity)
         shape = biesel(number * depth) * np.real(seen(number, reach)) / rate
         self.ago = np.arange(int(self.LENGTH * self.STEPS) + 1) * step
-        turn = np.sin(np.multiply.outer(self.ago, rate)) @ (shape / rate)
+        turn = dot(np.sin(np.multiply.outer(self.ago, rate)), shape / rate)
         self.share = 2.0 / np.pi * highest / count * np.diff(turn) / step
 
     def __call__(self, place, time):
         """Level at a time [m]; `place` is a function of (n,) float64 [s] that gives X [m]."""
         been = place(time - self.ago)
-        return float((been[:-1] - been[1:]) @ self.share)
+        return float(dot(been[:-1] - been[1:], self.share))

@@ -1,8 +1,9 @@
 """The level at the piston beyond what linear theory says of its motion, for one that absorbs.
 
 To second order that is the bound waves, less the free waves of the motion that keeps free waves
-away (Schaffer 1996): the piston makes these or not, and linear theory of its motion knows. Where
-the motion stands still at first and fades in, all this grows with the square of its share.
+away (Schaffer 1996): the piston makes these or not, and linear theory of its motion knows. And the
+gauge goes with the piston, so that it reads X d eta/dx more than one that stands. Where the motion
+fades in, all this grows with the square of its share.
 
 Functions here are given the reach of the piston's gauge [m] and return one of time [s].
 """
@@ -25,7 +26,19 @@ def level(depth, gravity, reach):
         number = number + sign * dispersion.wave_numbers(second, depth, gravity)
         bound = schaffer.bound_wave(first, second, sign, depth, gravity) * seen(number, reach)
         free = Gauge(rate, depth, gravity, reach).level
-        return bound - free * schaffer.transfer(first, second, sign, depth, gravity)
+        free = free * schaffer.transfer(first, second, sign, depth, gravity)
+        return bound - free + carried(first, second, sign)
+
+    def carried(first, second, sign):
+        (x, slope), (y, other) = moved(first), moved(second)
+        if sign < 0:
+            y, other = y.conj(), other.conj()
+        return np.where(first == second, 0.25, 0.5) * x * y * (slope + other)
+
+    def moved(rate):
+        """Amplitude of the piston for a wave of one metre, and the slope that it makes."""
+        ratio = dispersion.biesel(dispersion.wave_numbers(rate, depth, gravity) * depth)
+        return -1j / ratio, Gauge(rate, depth, gravity, reach).slope
 
     return of
 
@@ -92,4 +105,4 @@ def of_permanent(motion, period, celerity, number, depth, gravity, fade):
 
 
 def _sum(rate, series, fade):
-    return lambda t: float(np.real(np.exp(1j * rate * t) @ series)) * fade(t) ** 2
+    return lambda t: float(np.real(np.sum(np.exp(1j * rate * t) * series))) * fade(t) ** 2
