@@ -232,7 +232,7 @@ IRREGULAR = {
     **RUN, "tank.width": 0.016, "tank.periodic": True, "wavemaker.seed": 1,
     "wavemaker": {"type": "irregular", "height": 0.004, "period": 0.3, "absorption": True},
 }  # fmt: skip
-ENDS = (0.05, 0.02)
+ENDS = (0.03, 0.01)
 
 
 @pytest.mark.parametrize("ranks", [2, 3])

@@ -11,7 +11,7 @@ import numpy as np
 
 from mpslab.core.keys import require
 from mpslab.solids.paddle import Paddle
-from mpslab.theory import absorption, waves
+from mpslab.theory import absorption
 
 LEVEL, EXPECTED = "piston/level", "piston/expected"  # no gauge has such a name
 

@@ -4,20 +4,21 @@ Linear waves of depth h.  The surface is the real part of A e^{i (omega t - k x)
 X e^{i omega t} makes waves of i c0 X, with c0 of Biesel, and a swell beside it that dies out as
 e^{-kappa_j x / h}, C_j X in all.  Its gauge takes the mean over the first b metres of water, with
 W = (1 - e^{-i k b}) / (i k b) of an outgoing wave, W* of an incoming one, and C = sum of C_j (1 -
-e^{-kappa_j b / h}) / (kappa_j b / h) of the swell.  The law gives the piston the velocity - G(omega)
-times what the gauge reads beside the level that the piston's own waves would have.  It reflects
+e^{-kappa_j b / h}) / (kappa_j b / h) of the swell.  The law gives the piston the velocity -
+G(omega) times what the gauge reads beside the level that the piston's own waves would have, and
 
     R = (1 - G (c0 W* + i C) / omega) / (1 + G (c0 W - i C) / omega)
 
-of an incoming wave, nothing where G = omega / (c0 W* + i C).  That law asks for a lag: the gauge is
-ahead of the piston, and the swell beside the piston leads it.  So first-order lags can make it.
+is what it reflects of an incoming wave: nothing where G = omega / (c0 W* + i C).  That law asks for
+a lag: the gauge is ahead of the piston, and the swell beside it leads it.  So first-order lags can
+make the law, and take out noise besides.
 """
 
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from mpslab.theory.algebra import dot, solve
+from mpslab.theory.algebra import dot, eliminate
 from mpslab.theory.dispersion import biesel, evanescent, wave_numbers
 
 MODES = 60  # of the swell beside the piston
@@ -133,8 +134,8 @@ def tuned(gauge, delay):
 def fitted(gauge, amplitude, delay):
     """The law that reflects least of a spectrum, by least squares, re-weighted (Yang 2016).
 
-    `tuned` to the peak where that would not be stable. R is a fraction of two expressions that are linear in the gains: the denominator is taken from
-    the pass before.
+    R is a fraction of two expressions that are linear in the gains: the denominator is taken from
+    the pass before. Where the law would not be stable, the one that is `tuned` to the peak.
 
     Parameters
     ----------
@@ -159,7 +160,7 @@ def fitted(gauge, amplitude, delay):
         scale = weight / np.abs(under)
         rows = above * scale[:, np.newaxis]
         square = np.real(np.sum(rows[:, :, np.newaxis].conj() * rows[:, np.newaxis], axis=0))
-        gains = solve(square, np.sum(rows.real * scale[:, np.newaxis], axis=0))
+        gains = eliminate(square, np.sum(rows.real * scale[:, np.newaxis], axis=0))
         under = 1.0 + dot(below, gains)
     law = Law(gains, lags, washout, delay)
     return law if _is_safe(law, wide) else tuned(replace(gauge, rate=np.array([peak])), delay)

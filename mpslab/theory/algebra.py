@@ -11,7 +11,7 @@ def dot(rows, column):
     return np.sum(rows * column, axis=-1)
 
 
-def solve(matrix, right):
+def eliminate(matrix, right):
     """Solution of a system of equations by elimination with pivots, (m,); NaN if there is none."""
     table = np.column_stack([matrix, right])
     size = len(right)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mpslab.theory.algebra import dot, solve as solve_linear
+from mpslab.theory.algebra import dot, eliminate
 
 TERMS = (16, 32, 64, 128)  # of the series: the first that suffice
 SMALLEST = 3e-4  # share of the height that the last term may have, and a fall that rises again
@@ -181,7 +181,7 @@ def _newton(state, height, tau, terms, closed):
             value, matrix = _equations(state, height, tau, terms, closed)
             if not np.all(np.isfinite(matrix)):
                 return None
-            change = solve_linear(matrix, value)
+            change = eliminate(matrix, value)
             state = state - change
             if np.max(np.abs(change)) < TOLERANCE:
                 return state
