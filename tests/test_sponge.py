@@ -50,7 +50,13 @@ def test_long_waves_reflect_what_the_shallow_water_equations_say():
 def test_default_zone_of_one_wavelength_reflects_little_in_any_depth():
     for kh in (0.3, 0.5, 1.0, 1.5, 2.5):
         length = 2.0 * np.pi * DEPTH / kh
-        assert sponge.reflection(rate_of(kh), DEPTH, G, length, 2.0 * rate_of(kh)) < 0.035
+        strength = sponge.best(rate_of(kh), DEPTH, G, length)
+        best, less, more = (
+            sponge.reflection(rate_of(kh), DEPTH, G, length, share * strength * rate_of(kh))
+            for share in (1.0, 0.5, 2.0)
+        )
+        assert best < 0.03
+        assert less > best < more
 
 
 SMALL = {
@@ -137,7 +143,7 @@ def test_preflight_tells_what_a_zone_reflects_and_warns_of_a_short_one():
         ({"to": 0.31}, "sponge.0.to = 0.31: must be 0.03 m or more away from sponge.0.from"),
         ({"to": 0.7}, "sponge.0.to = 0.7: must be from 0 to tank.length"),
         ({"period": 0.0}, "sponge.0.period = 0.0: must be > 0 s"),
-        ({"strength": 0.0}, "sponge.0.strength = 0.0: must be a number > 0"),
+        ({"strength": -1.0}, "sponge.0.strength = -1.0: must be a number from 0 to 1000"),
         ({"target": "wave"}, "sponge.0.height = 0.0: must be > 0 m"),
         ({"target": "wave", "height": 0.09}, "sponge.0.height = 0.09: must be that of a wave"),
         ({"colour": 1}, "sponge.0.colour = 1: unknown key"),

@@ -381,7 +381,11 @@ class Sponge:
     start: float = key("x where it begins", unit="m", low=0, name="from")
     end: float = key("x where it ends, most often at the end wall", unit="m", low=0, name="to")
     strength: float = key(
-        "rate of the damping at its end, in angular frequencies of the wave", 2.0, above=0, high=1e3
+        "rate of the damping at its end, in angular frequencies of the wave; 0 for the one that "
+        "reflects least by linear theory",
+        0.0,
+        low=0,
+        high=1e3,
     )
     period: float = key("period of the wave; 0 for wavemaker.period", 0.0, unit="s", low=0)
     target: str = key(

@@ -26,7 +26,7 @@ def make(case):
 
 
 def _zone(case, one):
-    largest, step = one.strength * _rate(case, one), case.time.maximum
+    largest, step = strength_of(case, one) * _rate(case, one), case.time.maximum
     wave = wave_of(case, one) if one.target == "wave" else None
     bed = case.tank.bed[0][1]
 
@@ -61,16 +61,23 @@ def wave_of(case, one):
     )
 
 
+def strength_of(case, one):
+    """Damping at the end of a zone in angular frequencies of the wave [-]."""
+    return one.strength or sponge.best(*_before_a_wall(case, one))
+
+
 def reflection(case, one):
-    """What linear theory says that a zone reflects of its waves, None where it is not at an end."""
+    """What a zone reflects of its waves by linear theory [-]."""
+    rate, depth, gravity, length, behind = _before_a_wall(case, one)
+    largest = strength_of(case, one) * rate
+    return sponge.reflection(rate, depth, gravity, length, largest, behind)
+
+
+def _before_a_wall(case, one):
+    """Frequency, depth, gravity, length of a zone, and the way from its end to the wall."""
     behind = case.tank.length - one.end if one.end > one.start else one.end
     depth = case.tank.depth - float(case.tank.bed_height(one.start))
-    if depth <= 0.0:
-        return None
-    rate = _rate(case, one)
-    return sponge.reflection(
-        rate, depth, case.fluid.gravity, abs(one.end - one.start), one.strength * rate, behind
-    )
+    return _rate(case, one), depth, case.fluid.gravity, abs(one.end - one.start), behind
 
 
 def check(case):
@@ -86,6 +93,8 @@ def check(case):
         require(abs(one.end - one.start) >= least * (1.0 - 1e-9), f"{where}.to", one.end, rule)
         rule = "> 0 s, or wavemaker.period > 0 s: the strength is told in frequencies of the wave"
         require(period_of(case, one) > 0.0, f"{where}.period", one.period, rule)
+        dry = float(case.tank.bed_height(one.start)) >= case.tank.depth
+        require(not dry, f"{where}.from", one.start, "where there is water at rest")
         gravity = case.fluid.gravity
         require(gravity > 0.0, "fluid.gravity", gravity, "> 0 with a [[sponge]]")
         if one.target == "wave":

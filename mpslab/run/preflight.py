@@ -66,7 +66,7 @@ class Preflight:
           a sea), "absorption_period [s]", "reflection_at_peak", "reflection_over_spectrum", "room
           [m]";
         - "sponges": of each zone "from [m]", "to [m]", "period [s]", "wavelengths" that it is
-          long, "target" and "reflection", by linear theory;
+          long, "strength", "target" and "reflection", by linear theory;
         - "warnings": what the run may suffer from, a line each.
     """
 
@@ -240,6 +240,7 @@ def _sponge(case, one):
         "wavelengths": abs(one.end - one.start) / waves.wavelength(
             period, case.tank.paddle_depth, case.fluid.gravity
         ),
+        "strength": sponge.strength_of(case, one),
         "target": one.target,
         "reflection": sponge.reflection(case, one),
     }  # fmt: skip
@@ -248,7 +249,7 @@ def _sponge(case, one):
 def _reflects_much(zones):
     for i, zone in enumerate(zones):
         reflected = zone["reflection"]
-        if reflected is not None and reflected > MUCH:
+        if reflected > MUCH:
             yield (
                 f"sponge.{i}: reflects {100 * reflected:.2g} % of waves of {zone['period [s]']:.4g}"
                 f" s by theory; it is {zone['wavelengths']:.2g} wavelengths long, and longer ones "

@@ -110,10 +110,10 @@ def _absorption(maker):
 def _sponges(zones):
     for i, zone in enumerate(zones):
         place = f"x = {zone['from [m]']:g} m to {zone['to [m]']:g} m"
-        yield f"sponge.{i}", f"{place}, {zone['wavelengths']:.3g} wavelengths; to {zone['target']}"
-        if zone["reflection"] is not None:
-            period = f"{100 * zone['reflection']:.2g} % of waves of {zone['period [s]']:.4g} s"
-            yield "reflects by linear theory", period
+        size = f"{zone['wavelengths']:.3g} wavelengths, strength {zone['strength']:.2g}"
+        yield f"sponge.{i}", f"{place}, {size}; to {zone['target']}"
+        period = f"{100 * zone['reflection']:.2g} % of waves of {zone['period [s]']:.4g} s"
+        yield "reflects by linear theory", period
 
 
 def _sea(maker):

@@ -14,6 +14,7 @@ import numpy as np
 from mpslab.theory.dispersion import LARGEST_KH, wave_numbers
 
 POINTS = 400  # across the zone
+STRENGTHS = np.geomspace(0.5, 8.0, 49)  # largest r over omega, among which the best is looked for
 
 
 def profile(share):
@@ -51,6 +52,14 @@ def reflection(rate, depth, gravity, length, largest, behind=0.0):
     (k,), (weight,) = _damped(rate, depth, gravity, np.zeros(1))
     flux = slope / weight
     return float(abs((-1j * k - flux) / (1j * k - flux)))
+
+
+def best(rate, depth, gravity, length, behind=0.0):
+    """Largest r over omega [-] with which a zone reflects least: less lets the wave through to the
+    wall and back, more reflects it where the zone begins. As for `reflection`.
+    """
+    found = [reflection(rate, depth, gravity, length, s * rate, behind) for s in STRENGTHS]
+    return float(STRENGTHS[np.argmin(found)])
 
 
 def _damped(rate, depth, gravity, damping):
