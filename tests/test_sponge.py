@@ -129,7 +129,7 @@ def test_standing_wave_dies_in_a_zone_and_the_bits_stay_the_same_after_a_restart
 
 
 def test_preflight_tells_what_a_zone_reflects_and_warns_of_a_short_one():
-    long, short = {**ZONE, "from": 0.1}, {**ZONE, "from": 0.55}
+    long, short = {**ZONE, "from": 0.1}, {**ZONE, "from": 0.55, "strength": 0.5}
     found = preflight(make_case({**SMALL, "sponge": [long, short]}))
     first, second = found.findings["sponges"]
     assert first["reflection"] < 0.2 < second["reflection"]

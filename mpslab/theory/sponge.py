@@ -14,7 +14,7 @@ import numpy as np
 from mpslab.theory.dispersion import LARGEST_KH, wave_numbers
 
 POINTS = 400  # across the zone
-STRENGTHS = np.geomspace(0.5, 8.0, 49)  # largest r over omega, among which the best is looked for
+STRENGTHS = np.geomspace(0.5, 4.0, 37)  # largest r over omega, among which the best is looked for
 
 
 def profile(share):
