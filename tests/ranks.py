@@ -64,6 +64,18 @@ def steps(changes, count, dt):
         return {"iterations": iterations, **digest(everything)}
 
 
+def absorbed(changes, until):
+    """A run with a piston that absorbs: bytes of the particles, and what the piston went by."""
+    from tanks import make_case
+
+    from mpslab import Simulation
+
+    run = Simulation(make_case(changes)).run(until=until)
+    everything = run.domain.gather(run.particles)
+    if everything is not None:
+        return {"piston": run.table("piston").tolist(), **digest(everything)}
+
+
 def nested(changes, count, dt):
     """As `steps`, with `deflated`, and no factor that is worth its cost but that of the slabs."""
     from mpslab.pressure import deflation

@@ -13,7 +13,7 @@ from mpslab.cases.contents import ROUNDING
 from mpslab.core import plugins
 from mpslab.core.keys import CaseError, require, require_choice, toml_name
 from mpslab.core.parameters import Case
-from mpslab.forcings import frame
+from mpslab.forcings import frame, sponge
 from mpslab.solids import obstacles
 from mpslab.solids.census import census
 
@@ -21,7 +21,10 @@ from mpslab.solids.census import census
 MOST_PARTICLES = 1e9
 
 # How many tables, or points, there may be under a key.
-MOST = {"water": 100, "obstacle": 100, "gate": 100, "solid": 100, "gauge": 1000, "probe": 1000}
+MOST = {
+    "water": 100, "obstacle": 100, "gate": 100, "solid": 100, "sponge": 100, "gauge": 1000,
+    "probe": 1000,
+}  # fmt: skip
 MOST_POINTS, MOST_PICTURES = 2000, 1000
 
 # Theories in which wavemaker.height is the height of the wave.
@@ -52,6 +55,8 @@ def check(case: Case) -> None:
     _check_frame(case)
     _check_gravity(case)
     _check_time(case)
+    _check_absorption(case)
+    sponge.check(case)
     for name in ("gauge", "probe"):
         _check_places(case, name)
     instruments.check(case)
@@ -263,6 +268,15 @@ def _check_gravity(case):
         case.time.maximum,
         "given, > 0 s, where fluid.gravity = 0 and the water starts at rest",
     )
+
+
+def _check_absorption(case):
+    maker = case.wavemaker
+    if maker.absorption:
+        rule = "false for wavemaker.type = 'none', a wall; 'still' is a piston without waves"
+        require(maker.type != "none", "wavemaker.absorption", True, rule)
+    elif maker.room > 0.0:
+        require(False, "wavemaker.room", maker.room, "0 where wavemaker.absorption = false")
 
 
 def _check_time(case):

@@ -58,7 +58,7 @@ def from_tables(tables: dict, name: str = "case") -> Case:
     for key, kind in TABLES.items():
         parts[key] = _table(kind, tables.get(key, {}), key)
     for key, kind in LISTS.items():
-        parts[key] = _tables(kind, tables.get(key, []), key)
+        parts[key] = _tables(kind, _one_by_one(tables.get(key, []), key), key)
     case = complete(Case(**parts))
     check(case)
     return case
@@ -80,6 +80,25 @@ def _with_recipe(scheme):
     recipe = scheme.get("recipe", "standard")
     require_choice("scheme.recipe", recipe, tuple(RECIPES))
     return {**RECIPES[recipe], **scheme}
+
+
+def _one_by_one(items, where):
+    """The tables, with as many [[gauge]] as a list of places x has: NAME-1, NAME-2 and so on."""
+    if where != "gauge" or not isinstance(items, list | tuple):
+        return items
+    apart = []
+    for i, values in enumerate(items):
+        places = values.get("x") if isinstance(values, dict) else None
+        if not isinstance(places, list | tuple):
+            apart.append(values)
+            continue
+        if not places:
+            raise CaseError(f"gauge.{i}.x = []: must be a number, or a list of numbers [m]")
+        name = values.get("name")
+        for k, x in enumerate(places, 1):
+            number = {"name": f"{name}-{k}"} if isinstance(name, str) else {}
+            apart.append({**values, **number, "x": x})
+    return apart
 
 
 def _tables(kind, items, where):

@@ -113,6 +113,17 @@ class Wavemaker:
         unit="s",
         low=0,
     )
+    absorption: bool = key(
+        "true: the piston also gives way to waves that come back to it; regular waves, and those "
+        "of types without a theory, are known by period",
+        False,
+    )
+    room: float = key(
+        "how far absorption may take the piston off its motion; 0 for twice its stroke",
+        0.0,
+        unit="m",
+        low=0,
+    )
 
     def __post_init__(self):
         check_table(self)

@@ -266,11 +266,40 @@ class Output:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Sponge:
+    """A zone in which the water is led to rest, or to a wave; strongest at its end."""
+
+    start: float = key("x where it begins", unit="m", low=0, name="from")
+    end: float = key("x where it ends, most often at the end wall", unit="m", low=0, name="to")
+    strength: float = key(
+        "rate of the damping at its end, in angular frequencies of the wave; 0 for the one that "
+        "reflects least by linear theory",
+        0.0,
+        low=0,
+        high=1e3,
+    )
+    period: float = key("period of the wave; 0 for wavemaker.period", 0.0, unit="s", low=0)
+    target: str = key(
+        "what the water is led to: rest, or a regular wave, which the zone so makes",
+        "rest",
+        choices=("rest", "wave"),
+    )
+    height: float = key("height of that wave", 0.0, unit="m", low=0)
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Gauge:
     """A wave gauge: reads the surface elevation at x, y."""
 
     name: str = key("heading of its column", **NAME)
-    x: float = key("distance from the wavemaker at rest", unit="m", low=0)
+    x: float = key(
+        "distance from the wavemaker at rest; a list for a gauge at each place, NAME-1 and so on",
+        unit="m",
+        low=0,
+    )
     y: float | None = key("place across the tank; mid width if left out", None, unit="m", low=0)
 
     def __post_init__(self):
@@ -328,6 +357,7 @@ LISTS = {
     "obstacle": Obstacle,
     "gate": Gate,
     "solid": Solid,
+    "sponge": Sponge,
     "gauge": Gauge,
     "probe": Probe,
     "force": Force,
@@ -354,6 +384,7 @@ class Case:
     obstacle: tuple[Obstacle, ...] = ()
     gate: tuple[Gate, ...] = ()
     solid: tuple[Solid, ...] = ()
+    sponge: tuple[Sponge, ...] = ()
     gauge: tuple[Gauge, ...] = ()
     probe: tuple[Probe, ...] = ()
     force: tuple[Force, ...] = ()

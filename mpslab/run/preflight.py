@@ -12,6 +12,7 @@ from mpslab.core import bed as beds
 from mpslab.core import memory
 from mpslab.core.kinds import KIND_NAMES
 from mpslab.core.lattice import effective_length, rows_across
+from mpslab.forcings import sponge
 from mpslab.parallel import balance
 from mpslab.run.flow import slabs_of, solver_of
 from mpslab.run.preflight_frame import tank_motion
@@ -31,6 +32,7 @@ BYTES_PER_ENTRY = 40  # of a table's row, in memory
 BYTES_PER_POINT = {"": 11.0, "velocity": 10.0, "pressure": 3.5, "number_density": 3.5}
 BYTES_PER_NUMBER = 20.0  # of an entry of a table on the disk
 LEAST_STROKE = 0.1  # spacings
+MUCH = 0.05  # that a sponge reflects
 REGULAR = ("linear", "second_order", "cnoidal", "stream_function")
 SEAS = ("irregular", "focused", "bichromatic")
 SHORTEST_WAVE = 8.0  # spacings: shorter waves are damped soon
@@ -65,6 +67,11 @@ class Preflight:
           "roll [deg]", "period [s]" of a sine, "largest_acceleration [m/s2]" of a place where its
           water stands; where nothing else stands in it, "natural_period [s]" of the water and, by
           linear theory, its "rise [m]" at the walls, with the "room [m]" above it;
+        - of an absorbing piston among the wavemaker's: "absorption" (tuned to a wave, or fitted to
+          a sea), "absorption_period [s]", "reflection_at_peak", "reflection_over_spectrum", "room
+          [m]";
+        - "sponges": of each zone "from [m]", "to [m]", "period [s]", "wavelengths" that it is
+          long, "strength", "target" and "reflection", by linear theory;
         - "warnings": what the run may suffer from, a line each.
     """
 
@@ -116,6 +123,9 @@ def preflight(case):
         found["wavemaker"] = _wavemaker(case, paddle)
     if case.frame.type != "none":
         found["tank_motion"] = tank_motion(case, notes)
+    if case.sponge:
+        found["sponges"] = [_sponge(case, one) for one in case.sponge]
+        notes += _reflects_much(found["sponges"])
     kind = case.wavemaker.type
     if paddle and paddle.stroke > 0.0 and paddle.height > 0.0:
         if kind in (*REGULAR, *SEAS):
@@ -229,7 +239,7 @@ def _cost(case, n, size, notes):
 def _entries(case, size):
     """Entries of the tables of a run that grow with it, by name."""
     return {
-        name: (size.steps if name == "steps" else size.readings) * len(one.columns)
+        name: (size.readings if one.interval else size.steps) * len(one.columns)
         for name, one in instruments.of(case).items()
         if one.interval is not None
     }
@@ -244,6 +254,33 @@ def _results(case, n, size):
         "readings": size.readings,
         "tables [B]": BYTES_PER_NUMBER * sum(_entries(case, size).values()),
     }
+
+
+def _sponge(case, one):
+    """Place, length and period of a zone, and what it reflects."""
+    period = sponge.period_of(case, one)
+    return {
+        "from [m]": one.start,
+        "to [m]": one.end,
+        "period [s]": period,
+        "wavelengths": abs(one.end - one.start) / waves.wavelength(
+            period, case.tank.paddle_depth, case.fluid.gravity
+        ),
+        "strength": sponge.strength_of(case, one),
+        "target": one.target,
+        "reflection": sponge.reflection(case, one),
+    }  # fmt: skip
+
+
+def _reflects_much(zones):
+    for i, zone in enumerate(zones):
+        reflected = zone["reflection"]
+        if reflected > MUCH:
+            yield (
+                f"sponge.{i}: reflects {100 * reflected:.2g} % of waves of {zone['period [s]']:.4g}"
+                f" s by theory; it is {zone['wavelengths']:.2g} wavelengths long, and longer ones "
+                "reflect less"
+            )
 
 
 def _hardly_moves(case, paddle):

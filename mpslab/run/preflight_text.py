@@ -24,10 +24,12 @@ def sections(found):
         "Results (rough)": [*_results(found)],
     }
     maker = found.get("wavemaker", {"stroke [m]": 0.0})
-    if maker["stroke [m]"] > 0.0:
+    if maker["stroke [m]"] > 0.0 or "absorption" in maker:
         told["Wavemaker"] = [*_wavemaker(maker)]
     if "tank_motion" in found:
         told["Motion of the tank"] = [*_tank_motion(found["tank_motion"])]
+    if "sponges" in found:
+        told["Sponges"] = [*_sponges(found["sponges"])]
     if "wave" in found:
         told["Wave"] = [*_wave(found["wave"], found["spacing [m]"])]
     return told
@@ -105,6 +107,26 @@ def _wavemaker(maker):
     if "top_speed [m/s]" in maker:
         yield "top speed", f"{maker['top_speed [m/s]']:.3g} m/s"
         yield "largest acceleration", f"{maker['largest_acceleration [m/s2]']:.3g} m/s2"
+    if "absorption" in maker:
+        yield from _absorption(maker)
+
+
+def _absorption(maker):
+    law = f"{maker['absorption']} to waves of {maker['absorption_period [s]']:.4g} s"
+    yield "absorption", f"{law}, with {_mm(maker['room [m]'])} to either side"
+    reflected = f"{100 * maker['reflection_at_peak']:.1f} % there"
+    if "reflection_over_spectrum" in maker:
+        reflected += f", {100 * maker['reflection_over_spectrum']:.1f} % of the whole spectrum"
+    yield "reflects by linear theory", reflected
+
+
+def _sponges(zones):
+    for i, zone in enumerate(zones):
+        place = f"x = {zone['from [m]']:g} m to {zone['to [m]']:g} m"
+        size = f"{zone['wavelengths']:.3g} wavelengths, strength {zone['strength']:.2g}"
+        yield f"sponge.{i}", f"{place}, {size}; to {zone['target']}"
+        period = f"{100 * zone['reflection']:.2g} % of waves of {zone['period [s]']:.4g} s"
+        yield "reflects by linear theory", period
 
 
 def _tank_motion(tank):

@@ -36,6 +36,13 @@ class Paddle:
         "largest_height [m]"; of a focused or steep wave "crest [m]".
     doubts : tuple of str
         What the run may suffer from, a line each.
+    path : function (t : (n,) float64 [s]) -> X (n,) float64 [m]
+        The displacement at many times, for what has to know where the face has been.
+    waves : (rate (n,) float64 [rad/s], amplitude (n,) float64 [m]), or ()
+        Of what waves the motion is made, where its theory says so.
+    beyond : function (reach : float [m]) -> function (t : float [s]) -> float [m], or None
+        Level in front of the face, the mean over a reach, beyond what linear theory says of the
+        motion (`mpslab.solids.wavemakers._bound`).
     """
 
     displacement: Callable[[float], float]
@@ -47,6 +54,9 @@ class Paddle:
     note: str
     facts: dict = field(default_factory=dict)
     doubts: tuple = ()
+    path: Callable | None = None
+    waves: tuple = ()
+    beyond: Callable | None = None
 
     def advance(self, time, dt, readings):
         """Decide on the move from time to time + dt [s]; a motion known beforehand has nothing to
@@ -67,8 +77,9 @@ class Paddle:
 
 
 def from_motion(
-    motion: Callable, times, height: float, note: str, whole=None, facts=None, doubts=()
-) -> Paddle:
+    motion: Callable, times, height: float, note: str, whole=None, facts=None, doubts=(), waves=(),
+    beyond=None,
+) -> Paddle:  # fmt: skip
     """Paddle of a motion.
 
     Parameters
@@ -77,7 +88,7 @@ def from_motion(
         Displacement at t >= 0, with motion(0) = 0.
     times : (n,) float64 [s]
         Times from 0 to the end of the run among which the extremes are looked for.
-    height, note, facts, doubts
+    height, note, facts, doubts, waves, beyond
         As in `Paddle`.
     whole : (m,) float64 [s], optional
         Times that cover all of the motion: a period after the soft start, or a whole record. Left
@@ -90,9 +101,13 @@ def from_motion(
     def displacement(t: float) -> float:
         return 0.0 if t <= 0.0 else float(motion(t))
 
+    def path(t):
+        return np.where(t > 0.0, motion(np.maximum(t, 0.0)), 0.0)
+
     return Paddle(
-        displacement, stroke, foremost, backmost, farthest, height, note, facts or {}, doubts
-    )
+        displacement, stroke, foremost, backmost, farthest, height, note, facts or {}, doubts, path,
+        waves, beyond,
+    )  # fmt: skip
 
 
 def sample_times(end: float, period: float, start=0.0, samples=SAMPLES) -> np.ndarray:

@@ -5,6 +5,7 @@ import numpy as np
 from mpslab.core import lattice, plugins
 from mpslab.core.keys import CaseError, shown
 from mpslab.core.particles import FACE, FILLER, TANK
+from mpslab.solids.absorption import absorbing
 from mpslab.solids.solid import Solid
 
 ROOM = 3  # spacings that must stay between the piston and an obstacle or a gate
@@ -20,6 +21,8 @@ def make_paddle(case):
         return None
     maker = plugins.load("wavemakers", case.wavemaker.type)
     paddle = maker.make(case.wavemaker, case.tank.paddle_depth, case.fluid.gravity, case.time.end)
+    if case.wavemaker.absorption:
+        paddle = absorbing(case, paddle)
     _stay_in_tank(case, paddle)
     reach = paddle.foremost + ROOM * case.particles.spacing
     for i, box in enumerate(case.obstacle):

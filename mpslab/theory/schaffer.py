@@ -147,10 +147,32 @@ def motion(amplitude, first, step, depth, gravity, lowest=0.0):
     (2 (first + n) - 1,) complex128 [m]
         Complex amplitudes of X at all multiples of the step.
     """
+
+    def pair(one, other, sign):
+        return transfer(one, other, sign, depth, gravity)
+
+    return of_pairs(amplitude, first, step, pair, lowest)
+
+
+def of_pairs(amplitude, first, step, pair, lowest=0.0):
+    """Sum over all pairs of a sea of what is proportional to A_n A_m, or A_n A_m*.
+
+    Parameters
+    ----------
+    amplitude, first, step, lowest
+        As for `motion`.
+    pair : function (first, second, sign) -> (n,) complex128
+        As `transfer`.
+
+    Returns
+    -------
+    (2 (first + n) - 1,) complex128
+        Complex amplitudes at all multiples of the step.
+    """
     count = len(amplitude)
     rate = (first + np.arange(count)) * step
     found = np.zeros(2 * (first + count) - 1, complex)
-    sums, differences = _tables(rate, depth, gravity)
+    sums, differences = _tables(rate, pair)
     least = max(int(np.ceil(lowest / step)), 1)
     for i in range(count):
         n = first + i
@@ -165,8 +187,8 @@ def motion(amplitude, first, step, depth, gravity, lowest=0.0):
     return found
 
 
-def _tables(rate, depth, gravity):
-    """Functions of two frequencies: `transfer` of the sum, and of the difference times that.
+def _tables(rate, pair):
+    """Functions of two frequencies: `pair` of the sum, and of the difference times that.
 
     Both are smooth, so that splines between a few frequencies stand for all pairs, to 1e-4; only in
     deep water, where what is near the piston meets a free wave (one frequency twice the other), to
@@ -180,7 +202,7 @@ def _tables(rate, depth, gravity):
     larger, smaller = np.maximum(u, v) + apart, np.minimum(u, v) - apart
     tables = []
     for sign in (1, -1):
-        values = transfer(larger, smaller, sign, depth, gravity)
+        values = pair(larger, smaller, sign)
         if sign < 0:
             values = values * (larger - smaller)
             values = np.where(u < v, -values.conj(), values)  # with a negative difference

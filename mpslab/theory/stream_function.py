@@ -3,14 +3,13 @@
 The stream function in a frame that goes with the wave is a Fourier series that satisfies the
 equations in the water and on the bed exactly; its coefficients are found so that both conditions at
 the surface hold at points from crest to trough. Notation and unknowns are those of Fenton (1988).
-
-Sums and solutions are numpy's own: those of BLAS and LAPACK may have other last digits on another
-number of threads.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
+
+from mpslab.theory.algebra import dot, eliminate
 
 TERMS = (16, 32, 64, 128)  # of the series: the first of these that is enough
 SMALLEST = 3e-4  # share of the height that the last term may have, and a fall that rises again
@@ -19,6 +18,7 @@ STEPS = 8  # in which the height grows from a linear wave to the highest there i
 SHORTEST = 1e-3  # of these steps, in depths
 HIGHEST = 0.97  # of the highest wave: beyond, the series hardly converges
 TOLERANCE = 1e-11
+LARGEST = 300.0  # j k z: water does not come so high
 
 
 def highest(length, depth):
@@ -68,13 +68,21 @@ class Wave:
         order = np.arange(1, len(self.surface) + 1)
         turned = np.multiply.outer(angle, order)
         if derivative:
-            return -_dot(np.sin(turned), order * self.surface)
-        return _dot(np.cos(turned), self.surface)
+            return -dot(np.sin(turned), order * self.surface)
+        return dot(np.cos(turned), self.surface)
+
+    def velocity(self, angle, z):
+        """u and w [m/s] at angles k (x - c t) [rad] and heights above the bed [m], (n,) each."""
+        order = np.arange(1, len(self.speed) + 1)
+        high = np.multiply.outer(np.minimum(self.number * z, LARGEST / order[-1]), order)
+        turned = np.multiply.outer(angle, order)
+        u = dot(np.cosh(high) * np.cos(turned), self.speed)
+        return self.current + u, dot(np.sinh(high) * np.sin(turned), self.speed)
 
     def volume(self, angle):
         """Integral of eta by the angle from 0 [m rad], (n,) float64."""
         order = np.arange(1, len(self.surface) + 1)
-        return _dot(np.sin(np.multiply.outer(angle, order)), self.surface / order)
+        return dot(np.sin(np.multiply.outer(angle, order)), self.surface / order)
 
 
 def solve(height, period, depth, gravity, closed=True):
@@ -117,7 +125,7 @@ def _wave(height, period, depth, gravity, closed, terms):
     order, angles = np.arange(1, terms + 1), np.pi * np.arange(terms + 1) / terms
     weight = np.full(terms + 1, 2.0 / terms)
     weight[[0, -1]] *= 0.5
-    surface = _dot(np.cos(np.outer(order, angles)), weight * (state[: terms + 1] - 1.0))
+    surface = dot(np.cos(np.outer(order, angles)), weight * (state[: terms + 1] - 1.0))
     surface[-1] *= 0.5
     speed = k * order * state[terms + 1 : 2 * terms + 1] / np.cosh(np.minimum(order * k, 300.0))
     unit = depth / time
@@ -175,7 +183,7 @@ def _newton(state, height, tau, terms, closed):
             value, matrix = _equations(state, height, tau, terms, closed)
             if not np.all(np.isfinite(matrix)):
                 return None
-            change = _solve(matrix, value)
+            change = eliminate(matrix, value)
             state = state - change
             if np.max(np.abs(change)) < TOLERANCE:
                 return state
@@ -195,22 +203,22 @@ def _equations(state, height, tau, terms, closed):
     each_k = order * (z * wide - tanh * high) * cosine
     each_uk = each_u / k + k * order**2 * (z * high - tanh * wide) * cosine
     each_wk = each_w / k + k * order**2 * (z * wide - tanh * high) * sine
-    u, w = _dot(each_u, series) - mean, _dot(each_w, series)
-    u_z = _dot(k**2 * order**2 * high * cosine, series)
-    w_z = _dot(k**2 * order**2 * wide * sine, series)
+    u, w = dot(each_u, series) - mean, dot(each_w, series)
+    u_z = dot(k**2 * order**2 * high * cosine, series)
+    w_z = dot(k**2 * order**2 * wide * sine, series)
 
     matrix = np.zeros((len(state), len(state)))
     stream, bernoulli = points, terms + 1 + points
     b, last = slice(terms + 1, 2 * terms + 1), 2 * terms + 1
     matrix[stream, points] = u
     matrix[: terms + 1, b] = each
-    matrix[: terms + 1, last] = _dot(each_k, series)
+    matrix[: terms + 1, last] = dot(each_k, series)
     matrix[: terms + 1, last + 2] = -eta
     matrix[: terms + 1, last + 3] = 1.0
     matrix[bernoulli, points] = u * u_z + w * w_z + 1.0
     rows = slice(terms + 1, 2 * terms + 2)
     matrix[rows, b] = u[:, np.newaxis] * each_u + w[:, np.newaxis] * each_w
-    matrix[rows, last] = u * _dot(each_uk, series) + w * _dot(each_wk, series)
+    matrix[rows, last] = u * dot(each_uk, series) + w * dot(each_wk, series)
     matrix[rows, last + 2] = -u
     matrix[rows, last + 4] = -1.0
     level, top, time, frame = 2 * terms + 2 + np.arange(4)
@@ -221,30 +229,12 @@ def _equations(state, height, tau, terms, closed):
     matrix[time, [last, last + 1]] = c * tau, k * tau
     matrix[frame, [last + 1, last + (3 if closed else 2)]] = -1.0, 1.0
     value = np.concatenate([
-        _dot(each, series) - mean * eta + flow,
+        dot(each, series) - mean * eta + flow,
         0.5 * (u * u + w * w) + eta - head,
-        [_dot(weight, eta) - 1.0, eta[0] - eta[-1] - height, k * c * tau - 2.0 * np.pi,
+        [dot(weight, eta) - 1.0, eta[0] - eta[-1] - height, k * c * tau - 2.0 * np.pi,
          (flow if closed else mean) - c],
     ])  # fmt: skip
     return value, matrix
-
-
-def _dot(rows, column):
-    return np.sum(rows * column, axis=-1)
-
-
-def _solve(matrix, right):
-    """Solution of a system of equations by elimination with pivots, (m,); NaN if there is none."""
-    table = np.column_stack([matrix, right])
-    size = len(right)
-    for i in range(size):
-        pivot = i + int(np.argmax(np.abs(table[i:, i])))
-        table[[i, pivot]] = table[[pivot, i]]
-        table[i] /= table[i, i]
-        table[i + 1 :] -= table[i + 1 :, i, np.newaxis] * table[i]
-    for i in range(size - 1, 0, -1):
-        table[:i, -1] -= table[:i, i] * table[i, -1]
-    return table[:, -1]
 
 
 def _hyperbolic(rate, z):

@@ -4,7 +4,7 @@ import numpy as np
 
 from mpslab.later import scipy
 from mpslab.solids import paddle
-from mpslab.solids.wavemakers import _sea, _table
+from mpslab.solids.wavemakers import _bound, _sea, _table
 from mpslab.theory import breaking, dispersion
 
 COLUMNS = (("time", "s"), ("elevation", "m"))
@@ -39,7 +39,8 @@ def make(record, wavemaker, depth, gravity, end):
             f"{record.where}: its elevation goes through {largest:.4g} m: must be below "
             f"{limit:.4g} m, 0.78 of the depth, or the waves break at the maker"
         )
-    table = _table.of_series(_motion(eta, length, depth, gravity), np.pi / length)
+    series, amplitude = _motion(eta, length, depth, gravity)
+    table = _table.of_series(series, np.pi / length)
     rise = max(wavemaker.start, TAPER * length)
 
     def motion(t, derivative=0):
@@ -52,7 +53,18 @@ def make(record, wavemaker, depth, gravity, end):
         "significant_height [m]": 4.0 * float(np.std(eta)), **_sea.speeds(moved, times),
     }  # fmt: skip
     note = f"recorded elevation of {wavemaker.file}, by linear theory"
-    return paddle.from_motion(moved, times, 0.0, note, whole, facts)
+    kept = np.flatnonzero(amplitude)
+
+    def beyond(reach):
+        """The table of the bound waves is as late as that of the motion."""
+        late = _bound.of_sea(
+            amplitude[kept[0] :], kept[0], np.pi / length, depth, gravity,
+            lambda t: moved.share(t + begin),
+        )(reach)  # fmt: skip
+        return lambda t: late(t - begin)
+
+    waves = kept * np.pi / length, np.abs(amplitude[kept])
+    return paddle.from_motion(moved, times, 0.0, note, whole, facts, (), waves, beyond)
 
 
 def _even(record):
@@ -66,7 +78,7 @@ def _even(record):
 
 
 def _motion(eta, length, depth, gravity):
-    """Complex amplitudes of X at multiples of half the record's frequency."""
+    """Complex amplitudes of X and of the waves at multiples of half the record's frequency [m]."""
     count = len(eta)
     at = np.arange(count) / count
     edge = np.clip(np.minimum(at, 1.0 - at) / TAPER, 0.0, 1.0)
@@ -75,5 +87,7 @@ def _motion(eta, length, depth, gravity):
     kept = rate >= 2.0 * np.pi / (LONGEST * length)
     kept &= rate <= np.pi * count / (POINTS * length)
     ratio = dispersion.biesel(dispersion.wave_numbers(rate, depth, gravity) * depth)
-    moved = np.append(0.0, np.where(kept, -1j * series[1:] / ratio, 0.0)) / count
-    return moved[: np.flatnonzero(kept)[-1] + 2] if kept.any() else moved[:2]
+    amplitude = np.append(0.0, np.where(kept, series[1:], 0.0)) / count
+    moved = -1j * amplitude / np.append(1.0, ratio)
+    last = np.flatnonzero(kept)[-1] + 2 if kept.any() else 2
+    return moved[:last], amplitude[:last]

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from mpslab.solids import paddle
-from mpslab.solids.wavemakers import _record, _table
+from mpslab.solids.wavemakers import _bound, _record, _table
 from mpslab.theory import breaking, dispersion, schaffer, spectra, waves
 
 RECORD = 200.0  # peak periods after which a sea comes again, where nothing is said
@@ -163,6 +163,12 @@ def piston(sea, amplitude, order, depth, gravity):
         series = schaffer.motion(amplitude, sea.first, sea.step, depth, gravity, lowest)
     series[sea.first : sea.first + len(amplitude)] += first
     return _table.of_series(series, sea.step)
+
+
+def beyond(sea, amplitude, motion, depth, gravity):
+    """Level beyond linear theory, of waves that a `_table.Faded` makes (`_bound.of_sea`)."""
+    lowest = LOWEST * 2.0 * math.pi / sea.period
+    return _bound.of_sea(amplitude, sea.first, sea.step, depth, gravity, motion.share, lowest)
 
 
 def surface(sea, amplitude):

@@ -90,6 +90,11 @@ class Faded:
         self.motion, self.begin, self.end = motion, begin, end
         self.rise, self.fall = rise, fall
 
+    def share(self, t):
+        """Of the motion at t, from 0 to 1."""
+        rise = _fade((np.asarray(t) - self.begin) / self.rise, 0)
+        return rise * (_fade((self.end - np.asarray(t)) / self.fall, 0) if self.fall else 1.0)
+
     def __call__(self, t, derivative=0):
         """Place at t, or velocity (1) or acceleration (2); t: float or (n,) float64 [s]."""
         orders = range(derivative + 1)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from mpslab.solids import paddle
-from mpslab.solids.wavemakers import _sea, _table
+from mpslab.solids.wavemakers import _bound, _sea, _table
 from mpslab.theory import breaking, dispersion, schaffer, waves
 
 CLOSEST = 0.02  # difference of the frequencies over their mean
@@ -48,7 +48,11 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
         f"bichromatic, order {wavemaker.order}: T = {periods[0]:g} s and {periods[1]:g} s, H = "
         f"{heights[0]:g} m and {heights[1]:g} m, groups of {group:.4g} s"
     )
-    return paddle.from_motion(motion, times, wavemaker.height, note, whole, facts, tuple(doubts))
+    asked = 2.0 * math.pi / periods, 0.5 * heights
+    return paddle.from_motion(
+        motion, times, wavemaker.height, note, whole, facts, tuple(doubts), asked,
+        _bound.of_waves(*asked, depth, gravity, motion.share),
+    )  # fmt: skip
 
 
 def _series(order, heights, periods, depth, gravity):

@@ -6,6 +6,7 @@ import numpy as np
 
 from mpslab.later import scipy
 from mpslab.solids import paddle
+from mpslab.solids.wavemakers import _bound
 from mpslab.theory import breaking, waves
 
 STEPS = 100  # Runge-Kutta steps to the period of a sine; more for a sharp crest
@@ -23,8 +24,11 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     wave = _wave(wavemaker, depth, gravity)
     one_period = _one_period(wave)
 
+    def fade(t):
+        return paddle.soft_start(t, wavemaker.start)
+
     def motion(t):
-        return paddle.soft_start(t, wavemaker.start) * one_period(np.mod(t, wave.period))
+        return fade(t) * one_period(np.mod(t, wave.period))
 
     note = (
         f"long-wave piston (first-order cnoidal, Goring): L = {wave.length:.3f} m,"
@@ -35,7 +39,10 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     times, whole = (
         paddle.sample_times(t, wave.period, wavemaker.start, samples) for t in (end, math.inf)
     )
-    return paddle.from_motion(motion, times, wave.height, note, whole)
+    beyond = _bound.of_permanent(
+        one_period, wave.period, wave.celerity, 2.0 * math.pi / wave.length, depth, gravity, fade
+    )
+    return paddle.from_motion(motion, times, wave.height, note, whole, beyond=beyond)
 
 
 def _wave(wavemaker, depth, gravity):

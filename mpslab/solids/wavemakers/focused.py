@@ -55,7 +55,10 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     )
     doubts += [*_early(table, rise, begin, last), *_cut(focus, end), *_sea.doubts_of(sea)]
     whole = _sea.samples_of(table, last)
-    return paddle.from_motion(motion, times, sea.height, note, whole, facts, tuple(doubts))
+    return paddle.from_motion(
+        motion, times, sea.height, note, whole, facts, tuple(doubts), (sea.rate, np.abs(amplitude)),
+        _sea.beyond(sea, amplitude, motion, depth, gravity),
+    )  # fmt: skip
 
 
 def _crest(wavemaker, sea, depth, gravity):

@@ -44,8 +44,9 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
         "made up for"
     )
     return paddle.from_motion(
-        motion, times, sea.height, note, whole, facts, (*doubts, *_sea.doubts_of(sea))
-    )
+        motion, times, sea.height, note, whole, facts, (*doubts, *_sea.doubts_of(sea)),
+        (sea.rate, np.abs(amplitude)), _sea.beyond(sea, amplitude, motion, depth, gravity),
+    )  # fmt: skip
 
 
 def draw(sea, kind, seed):

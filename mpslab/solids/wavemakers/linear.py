@@ -5,7 +5,7 @@ from math import inf
 import numpy as np
 
 from mpslab.solids import paddle
-from mpslab.solids.wavemakers import _regular
+from mpslab.solids.wavemakers import _bound, _regular
 from mpslab.theory import breaking
 
 
@@ -21,14 +21,18 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     wave = _regular.first_order(wavemaker, depth, gravity)
     half = 0.5 * wave.stroke * (1.0 if wavemaker.first == "forward" else -1.0)
 
+    def fade(t):
+        return paddle.soft_start(t, wavemaker.start)
+
     def motion(t):
-        travel = half * (1.0 - np.cos(wave.frequency * t))
-        return paddle.soft_start(t, wavemaker.start) * travel
+        return fade(t) * half * (1.0 - np.cos(wave.frequency * t))
 
     times, whole = (
         paddle.sample_times(t, wavemaker.period, wavemaker.start) for t in (end, inf)
     )
-    return paddle.from_motion(motion, times, wave.height, _note(wave), whole)
+    crest = np.array([-0.5j * np.copysign(wave.height, half)])
+    beyond = _bound.of_waves(np.array([wave.frequency]), crest, depth, gravity, fade)
+    return paddle.from_motion(motion, times, wave.height, _note(wave), whole, beyond=beyond)
 
 
 def _note(wave):

@@ -5,7 +5,7 @@ from math import acos, inf, sqrt, tanh
 import numpy as np
 
 from mpslab.solids import paddle
-from mpslab.solids.wavemakers import _regular
+from mpslab.solids.wavemakers import _bound, _regular
 from mpslab.theory import breaking, waves
 
 
@@ -25,9 +25,11 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     def path(phase):
         return first * np.sin(phase) + second * np.sin(2.0 * phase)
 
+    def fade(t):
+        return paddle.soft_start(t, wavemaker.start)
+
     def motion(t):
-        travel = path(wave.frequency * t + start) - path(start)
-        return paddle.soft_start(t, wavemaker.start) * travel
+        return fade(t) * (path(wave.frequency * t + start) - path(start))
 
     note = (
         f"second-order piston (Madsen 1971): H L^2/h^3 = {wave.ursell:.1f}, below"
@@ -36,7 +38,9 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     times, whole = (
         paddle.sample_times(t, wavemaker.period, wavemaker.start) for t in (end, inf)
     )
-    return paddle.from_motion(motion, times, wave.height, note, whole)
+    crest = 0.5 * wave.height * np.exp([1j * start])
+    beyond = _bound.of_waves(np.array([wave.frequency]), crest, depth, gravity, fade)
+    return paddle.from_motion(motion, times, wave.height, note, whole, beyond=beyond)
 
 
 def _second_harmonic(wave, depth):

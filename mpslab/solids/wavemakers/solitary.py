@@ -43,7 +43,21 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     )
     # It only ever goes forward, so its extremes are its ends.
     times, whole = (np.array([0.0, t]) for t in (end, max(fade, 2.0 * delay / rate)))
-    return paddle.from_motion(motion, times, height, note, whole)
+    celerity = rate / k
+
+    def beyond(reach):
+        """At the face the level is H sech^2, where a long wave of small height is U sqrt(h/g)."""
+
+        def of(t):
+            phase = _phase(rate * t - 0.5 * k * reach - delay, ratio)
+            level = height / np.cosh(phase) ** 2
+            speed = celerity * level / (depth + level)
+            return float(level - speed * math.sqrt(depth / gravity))
+
+        return of
+
+    waves_of = np.array([rate]), np.array([height])
+    return paddle.from_motion(motion, times, height, note, whole, waves=waves_of, beyond=beyond)
 
 
 def _tail_phase(ratio):

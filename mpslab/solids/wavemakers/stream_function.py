@@ -6,7 +6,7 @@ import numpy as np
 
 from mpslab.later import scipy
 from mpslab.solids import paddle
-from mpslab.solids.wavemakers import _sea, _table
+from mpslab.solids.wavemakers import _bound, _sea, _table
 from mpslab.theory import stream_function, waves
 
 POINTS = 64  # of the table to a period of a sine; more for a sharp crest
@@ -31,8 +31,11 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
         raise ValueError(f"wavemaker.height = {wavemaker.height:g} m: {error}") from None
     table = one_period(wave)
 
+    def fade(t):
+        return paddle.soft_start(t, wavemaker.start)
+
     def motion(t):
-        return paddle.soft_start(t, wavemaker.start) * table(t)
+        return fade(t) * table(t)
 
     highest = stream_function.highest(wave.length, depth)
     note = (
@@ -49,7 +52,10 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
         "mean_current [m/s]": float(wave.current),
         **_sea.speeds(table, times),
     }
-    return paddle.from_motion(motion, times, wave.height, note, whole, facts)
+    beyond = _bound.of_permanent(
+        table, wave.period, wave.celerity, wave.number, depth, gravity, fade
+    )
+    return paddle.from_motion(motion, times, wave.height, note, whole, facts, beyond=beyond)
 
 
 def one_period(wave):

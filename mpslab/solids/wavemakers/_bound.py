@@ -1,0 +1,108 @@
+"""The level at the piston beyond what linear theory says of its motion, for one that absorbs.
+
+To second order that is the bound waves, less the free waves of the motion that keeps free waves
+away (Schaffer 1996): the piston makes these or not, and linear theory of its motion knows. And the
+gauge goes with the piston, so that it reads X d eta/dx more than one that stands. Where the motion
+fades in, all this grows with the square of its share.
+
+Functions here are given the reach of the piston's gauge [m] and return one of time [s].
+"""
+
+import numpy as np
+
+from mpslab.solids.wavemakers import _table
+from mpslab.theory import dispersion, schaffer
+from mpslab.theory.absorption import Gauge, seen
+
+HARMONICS, POINTS = 12, 256  # of a wave of permanent form, and points to its period
+
+
+def level(depth, gravity, reach):
+    """Level of a pair of waves over A_n A_m, or A_n A_m*: function (first, second, sign)."""
+
+    def of(first, second, sign):
+        rate = first + sign * second
+        number = dispersion.wave_numbers(first, depth, gravity)
+        number = number + sign * dispersion.wave_numbers(second, depth, gravity)
+        bound = schaffer.bound_wave(first, second, sign, depth, gravity) * seen(number, reach)
+        free = Gauge(rate, depth, gravity, reach).level
+        free = free * schaffer.transfer(first, second, sign, depth, gravity)
+        return bound - free + carried(first, second, sign)
+
+    def carried(first, second, sign):
+        (x, slope), (y, other) = moved(first), moved(second)
+        if sign < 0:
+            y, other = y.conj(), other.conj()
+        return np.where(first == second, 0.25, 0.5) * x * y * (slope + other)
+
+    def moved(rate):
+        """Amplitude of the piston for a wave of one metre, and the slope that it makes."""
+        ratio = dispersion.biesel(dispersion.wave_numbers(rate, depth, gravity) * depth)
+        return -1j / ratio, Gauge(rate, depth, gravity, reach).slope
+
+    return of
+
+
+def of_waves(rate, amplitude, depth, gravity, fade):
+    """Of a few waves, one or two.
+
+    Parameters
+    ----------
+    rate : (n,) float64 [rad/s]
+    amplitude : (n,) complex128 [m]
+    fade : function (t [s]) -> share of the motion
+    """
+
+    def beyond(reach):
+        pair = level(depth, gravity, reach)
+        rates, parts = [2.0 * rate], [amplitude**2 * pair(rate, rate, 1)]
+        if len(rate) == 2:
+            fast, slow = (np.array([pick(rate)]) for pick in (np.argmax, np.argmin))
+            for sign in (1, -1):
+                a, b = amplitude[fast], amplitude[slow]
+                product = a * (b if sign > 0 else b.conj())
+                parts.append(product * pair(rate[fast], rate[slow], sign))
+                rates.append(rate[fast] + sign * rate[slow])
+        return _sum(np.concatenate(rates), np.concatenate(parts), fade)
+
+    return beyond
+
+
+def of_sea(amplitude, first, step, depth, gravity, fade, lowest=0.0):
+    """Of many waves, whose frequencies are (first + i) step; as for `schaffer.of_pairs`."""
+
+    def beyond(reach):
+        pair = level(depth, gravity, reach)
+        table = _table.of_series(schaffer.of_pairs(amplitude, first, step, pair, lowest), step)
+        return lambda t: table(t) * fade(t) ** 2
+
+    return beyond
+
+
+def of_permanent(motion, period, celerity, number, depth, gravity, fade):
+    """Of a wave of permanent form, whose level at the face is h U / (c - U).
+
+    Parameters
+    ----------
+    motion : function (t, derivative) -> X or its velocity
+        One period of it.
+    celerity, number : float [m/s], [1/m]
+    """
+
+    def beyond(reach):
+        times = period * np.arange(POINTS) / POINTS
+        place, speed = motion(times, 0), motion(times, 1)
+        order = np.arange(1, HARMONICS + 1)
+        rate = 2.0 * np.pi / period * order
+        found, moved = (
+            2.0 / POINTS * np.fft.rfft(one)[order]
+            for one in (depth * speed / (celerity - speed), place)
+        )
+        gauge = Gauge(rate, depth, gravity, reach)
+        return _sum(rate, found * seen(order * number, reach) - 1j * gauge.out * moved, fade)
+
+    return beyond
+
+
+def _sum(rate, series, fade):
+    return lambda t: float(np.real(np.sum(np.exp(1j * rate * t) * series))) * fade(t) ** 2
