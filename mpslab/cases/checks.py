@@ -21,7 +21,10 @@ from mpslab.solids.census import census
 MOST_PARTICLES = 1e9
 
 # How many tables, or points, there may be under a key.
-MOST = {"water": 100, "obstacle": 100, "gate": 100, "gauge": 1000, "probe": 1000}
+MOST = {
+    "water": 100, "obstacle": 100, "gate": 100, "gauge": 1000, "probe": 1000, "runup": 100,
+    "overtopping": 100,
+}  # fmt: skip
 MOST_POINTS, MOST_PICTURES = 2000, 1000
 
 # Theories in which wavemaker.height is the height of the wave.

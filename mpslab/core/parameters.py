@@ -353,7 +353,7 @@ class Output:
     )
     checkpoint: float = key("time between checkpoints; 0 for end / 5", 0.0, unit="s", low=0)
     gauge_interval: float = key(
-        "time between readings of gauges, probes and forces; 0 for every step", 0.0, unit="s", low=0
+        "time between readings of gauges, probes, forces, run-up and overtopping; 0 for every step", 0.0, unit="s", low=0
     )
     pictures: tuple = key(
         "times of the pictures; [] to spread them over the run", (), kind="numbers", unit="s", low=0
@@ -408,6 +408,40 @@ class Force:
         check_table(self)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Runup:
+    """How far the water runs up the slope that its still level meets, in runup.csv.
+
+    The highest water that hangs together with the sea and is so thick.
+    """
+
+    name: str = key("heading of its columns", **NAME)
+    thickness: float = key(
+        "how thick the water has to be, at right angles to the bed; 0 for 2 spacings",
+        0.0,
+        unit="m",
+        low=0,
+    )
+    y: float | None = key("place across the tank; mid width if left out", None, unit="m", low=0)
+
+    def __post_init__(self):
+        check_table(self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Overtopping:
+    """The water that passes an upright plane across the tank, in overtopping.csv."""
+
+    name: str = key("heading of its columns", **NAME)
+    x: float = key("place of the plane, behind a crest", unit="m", above=0)
+    drain: bool = key(
+        "true: what has passed is taken out of the run, and counted in lost.csv", False
+    )
+
+    def __post_init__(self):
+        check_table(self)
+
+
 # Tables of a case, in the order in which they are written; those of LISTS may come several times.
 TABLES = {
     "tank": Tank,
@@ -428,6 +462,8 @@ LISTS = {
     "gauge": Gauge,
     "probe": Probe,
     "force": Force,
+    "runup": Runup,
+    "overtopping": Overtopping,
 }
 
 
@@ -453,6 +489,8 @@ class Case:
     gauge: tuple[Gauge, ...] = ()
     probe: tuple[Probe, ...] = ()
     force: tuple[Force, ...] = ()
+    runup: tuple[Runup, ...] = ()
+    overtopping: tuple[Overtopping, ...] = ()
 
     def __post_init__(self):
         for item in fields(self):

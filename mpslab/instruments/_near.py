@@ -20,17 +20,19 @@ def read_near(flow, places, reach, read):
     list
         Empty where there are no places.
     """
-    if not places:
-        return []
+    return read_of(flow, within(flow.particles, places, reach), read) if places else []
+
+
+def read_of(flow, rows, read):
+    """As `read_near`, of the particles in some rows of this rank's, a mask (n,)."""
     domain = flow.domain
-    particles = domain.gather(_near(flow, places, reach))
+    particles = domain.gather(flow.particles.take(rows))
     return domain.from_all(None if particles is None else read(particles))[0]
 
 
-def _near(flow, places, reach):
-    """This rank's particles within the reach of a place."""
-    particles = flow.particles
+def within(particles, places, reach):
+    """Mask of the particles within a reach of a place along the tank, (n,) bool."""
     near = np.zeros(len(particles), bool)
     for x in places:
         near |= np.abs(particles.position[:, 0] - x) < reach
-    return particles.take(near)
+    return near

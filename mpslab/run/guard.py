@@ -9,6 +9,7 @@ from mpslab.solids import obstacles
 
 MOST_LOST = 1e-3  # of the fluid particles at the start
 FEW_LOST = 5  # are borne by any run
+DRAINED = "drained by "  # and the name of the plane: what is taken out on purpose
 
 
 class RunFailed(RuntimeError):
@@ -17,14 +18,16 @@ class RunFailed(RuntimeError):
 
 @dataclass(frozen=True)
 class Lost:
-    """Fluid particles that left the tank: row numbers (n,) int and the side they left by."""
+    """Fluid particles that leave the tank: row numbers (n,) int and the side they leave by."""
 
     rows: np.ndarray
     reason: str
 
 
 def find_lost(case, particles, face):
-    """Fluid particles behind a wall by more than a spacing, as a list of `Lost`.
+    """Fluid particles behind a wall by more than a spacing, or beyond a plane that drains.
+
+    Returns a list of `Lost`; the reason of what drains begins with `DRAINED`.
 
     Parameters
     ----------
@@ -45,7 +48,8 @@ def find_lost(case, particles, face):
         out = (position[:, 1] < -spacing) | (position[:, 1] > width + spacing)
         walls.append(("a side wall", out))
     high = position[:, 2] > case.tank.height
-    sides = [(f"over {wall}", out & high) for wall, out in walls]
+    sides = [(DRAINED + one.name, position[:, 0] > one.x) for one in case.overtopping if one.drain]
+    sides += [(f"over {wall}", out & high) for wall, out in walls]
     sides += [(f"behind {wall}", out & ~high) for wall, out in walls]
     bed = case.tank.bed_height(position[:, 0])
     sides.append(("below the bed", position[:, 2] < bed - spacing))
@@ -65,7 +69,8 @@ def find_lost(case, particles, face):
 def _may_be_lost(case, particles, face):
     """Mask of the water behind a wall, or lower than the highest bed: little of it, as a rule."""
     x, y, z = particles.position.T
-    suspect = (x < face) | (x > min(effective_length(case), case.tank.length))
+    drains = [one.x for one in case.overtopping if one.drain]
+    suspect = (x < face) | (x > min(effective_length(case), case.tank.length, *drains))
     suspect |= z < max((height for _, height in case.tank.bed), default=0.0)
     if case.tank.width > 0.0 and not case.tank.periodic:
         suspect |= (y < 0.0) | (y > rows_across(case) * case.particles.spacing)
