@@ -18,17 +18,18 @@ from mpslab.core.parameters import LISTS, TABLES, Scheme
 from mpslab.theory import waves
 
 NAMES = (
+    "caisson",
     "dam_break",
     "focused_wave",
     "hydrostatic",
     "irregular_waves",
+    "overtopping",
     "plunging_breaker",
     "regular_waves",
     "solitary_runup",
     "standing_wave",
 )
-TWO_DIMENSIONAL = {"focused_wave", "hydrostatic", "irregular_waves", "regular_waves",
-                   "solitary_runup", "standing_wave"}  # fmt: skip
+TWO_DIMENSIONAL = set(NAMES) - {"dam_break", "plunging_breaker"}
 
 
 def small(**tables):

@@ -353,7 +353,10 @@ class Output:
     )
     checkpoint: float = key("time between checkpoints; 0 for end / 5", 0.0, unit="s", low=0)
     gauge_interval: float = key(
-        "time between readings of gauges, probes, forces, run-up and overtopping; 0 for every step", 0.0, unit="s", low=0
+        "time between readings of gauges, probes, forces, run-up and overtopping; 0 for every step",
+        0.0,
+        unit="s",
+        low=0,
     )
     pictures: tuple = key(
         "times of the pictures; [] to spread them over the run", (), kind="numbers", unit="s", low=0

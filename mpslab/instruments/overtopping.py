@@ -107,7 +107,7 @@ class Overtopping(Instrument):
         return [np.concatenate(parts) for parts in zip(*found, strict=True)]
 
     def _layer(self, flow, x):
-        """Thickness [m] of the water just before a plane, by its volume, and its mean speed [m/s]."""
+        """Thickness [m] of the water just before a plane, by its volume, and its speed [m/s]."""
         p, spacing = flow.particles, flow.stencil.spacing
         off = (p.position[:, 0] - x) / spacing + BEFORE
         weight = np.where(p.fluid, spline(off), 0.0)

@@ -23,14 +23,14 @@ def check(case):
         not case.runup or beds.shore(tank.bed, tank.depth) is not None,
         "tank.bed",
         tank.bed,
-        f"a bed that rises above the still water, {tank.depth:g} m, where there is a runup; a gauge "
-        "reads the level at a wall",
+        f"one that rises from below the still water, {tank.depth:g} m, to above it, for a runup",
     )
     for i, one in enumerate(case.runup):
+        where, least = f"runup.{i}", spacing * (1.0 - 1e-9)
         rule = f"0, or >= {spacing:g} m, a spacing"
-        require(one.thickness >= spacing * (1.0 - 1e-9), f"runup.{i}.thickness", one.thickness, rule)
+        require(one.thickness >= least, f"{where}.thickness", one.thickness, rule)
         rule = f"from 0 to tank.width = {tank.width:g} m"
-        require(one.y <= tank.width * (1.0 + 1e-9), f"runup.{i}.y", one.y, rule)
+        require(one.y <= tank.width * (1.0 + 1e-9), f"{where}.y", one.y, rule)
 
 
 class Runup(Instrument):

@@ -280,7 +280,7 @@ def _beach(case, height, period, notes):
     runup = breaking.hunt_runup(deep_height, period, slope, gravity)
     top = max(z for _, z in case.tank.bed)
     highest = case.tank.depth + runup
-    if top < highest:
+    if top < highest and not case.overtopping:
         notes.append(
             f"run-up of {highest:.4g} m would reach over the beach, whose top is at {top:g} m"
         )
