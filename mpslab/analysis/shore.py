@@ -7,7 +7,7 @@ import numpy as np
 
 from mpslab.analysis import crossings
 
-SHARE = 0.02  # of the incident waves, that exceed R2%
+SHARE = 0.02  # of the incident waves, that reach R2%
 FEW_RUNUPS = 500  # waves that R2% wants
 RIPPLE = 0.1  # times 4 standard deviations: what does not pass the mean by it is no wave
 GAP = 0.5  # periods at least from the peak of one event to that of the next
@@ -28,7 +28,7 @@ class Runup:
     peaks : (waves,) structured array
         "time" [s] and "level" [m] of each run-up.
     mean, highest, r2 : float [m]
-        Of the peaks; `r2` is exceeded by 2 % of the incident waves, NaN of regular ones.
+        Of the peaks; `r2` is reached by 2 % of the incident waves, NaN of regular ones.
     fitted : bool
         Whether `r2` is that of Rayleigh's distribution with the mean square of the peaks: in fewer
         than 50 waves the highest is less rare than that.
@@ -223,8 +223,8 @@ def _events(table, name, passed, period, particle):
     peaks, facts = find_peaks(rate, distance=max(GAP * period / step, 1.0), prominence=0.0)
     peaks = peaks[facts["prominences"] >= VALLEY * rate[peaks]] - 1
     ends = [first + int(np.argmin(rate[first + 1 : last + 1])) for first, last in pairwise(peaks)]
-    found = []
-    for peak, (first, last) in zip(peaks, pairwise([0, *ends, len(passed)]), strict=True):
+    found, ends = [], [0, *ends, len(passed)]
+    for peak, first, last in zip(peaks, ends, ends[1:], strict=False):
         part, flow = table[first:last], np.maximum(passed[first:last], 0.0)
         if (volume := float(passed[first:last].sum())) > (LEAST - 0.5) * particle:
             means = (_weighted(part[f"{name} {what}"], flow) for what in ("layer", "speed"))
