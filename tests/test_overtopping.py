@@ -5,8 +5,9 @@ import pytest
 from ranks import start
 from tanks import csv_rows, make_case
 
-from mpslab import Simulation
+from mpslab import Simulation, load_case
 from mpslab.core.keys import CaseError
+from mpslab.run.preflight import preflight
 
 D0 = 0.002
 # A column of water that falls over a step, and back from the far wall where nothing is drained.
@@ -117,6 +118,12 @@ def test_a_run_that_goes_on_counts_on(tmp_path):
         one, other = (csv_rows(tmp_path / folder / f"{name}.csv") for folder in ("whole", "part"))
         assert one == other
     assert np.array_equal(whole.particles.position, resumed.particles.position)
+
+
+def test_a_layer_that_will_be_too_thin_is_told_before_the_run():
+    thin = preflight(load_case("overtopping", {"particles.spacing": 0.004})).warnings
+    assert any("layer on the crest would be about 2.4 spacings" in warning for warning in thin)
+    assert preflight(load_case("overtopping", {"particles.spacing": 0.002})).warnings == []
 
 
 @pytest.mark.parametrize(

@@ -65,7 +65,7 @@ def test_water_that_does_not_hang_together_with_the_sea_does_not_count():
 
 
 def test_a_jet_over_the_dry_slope_does_not_count():
-    jet = layer(3, 0.04, 0.07) + [0.0, 0.0, 4.0 * D0]
+    jet = layer(3, 0.04, 0.07) + np.array([0.0, 0.0, 4.0 * D0])
     assert tip(np.vstack([layer(3, 0.02, 0.04), jet]))[1] == pytest.approx(0.04, abs=D0)
 
 
@@ -106,7 +106,7 @@ def test_still_water_reads_its_level_whatever_the_thickness(width):
     [
         ({"tank.depth": 0.035}, "tank.bed = "),
         ({"runup": [{"name": "a"}, {"name": "a"}]}, "runup.1.name = 'a'"),
-        ({"runup": [{"name": "a", "thickness": 0.001}]}, "runup.0.thickness = 0.001: must be 0, or"),
+        ({"runup": [{"name": "a", "thickness": 0.001}]}, "runup.0.thickness = 0.001: must"),
         ({"tank.width": 0.012, "runup": [{"name": "a", "y": 0.02}]}, "runup.0.y = 0.02"),
     ],
 )

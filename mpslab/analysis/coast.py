@@ -17,6 +17,8 @@ class Coast:
 
     Attributes
     ----------
+    level : float [m]
+        Of the still water.
     window : mpslab.analysis.windows.Window
         From when the waves have come to the shore; of regular waves whole periods.
     runups : tuple of mpslab.analysis.shore.Runup
@@ -30,6 +32,7 @@ class Coast:
     notes : tuple of str
     """
 
+    level: float
     window: windows.Window
     runups: tuple
     overtopped: tuple
@@ -75,6 +78,7 @@ def look(run, level, regular, arrival, window, asked, period, found):
     pushed = [_pushed(run, one, window, site, sea, arrival) for one in case.get("force", ())]
     runups, passed, pushed = (tuple(filter(None, part)) for part in (runups, passed, pushed))
     return Coast(
+        level=level,
         window=window,
         runups=runups,
         overtopped=passed,
@@ -117,8 +121,9 @@ class Site:
         1 in 2-D.
     slope : float
         Of the bed where the still water meets it, 0 where it does not.
-    place : float [m]
-        x of the still shoreline, or of the first wall.
+    place, top : float [m]
+        x of the still shoreline, or of the first wall; and height of the slope's crest, infinite
+        without a slope.
     """
 
     def __init__(self, case, level):
@@ -129,13 +134,14 @@ class Site:
         self.bed = case["tank"].get("bed") or [[0.0, 0.0], [length, 0.0]]
         self.width = case["tank"]["width"] or 1.0
         self.obstacles = case.get("obstacle", ())
-        self.slope, self.place = 0.0, length
+        self.slope, self.place, self.top = 0.0, length, np.inf
         edge = beds.shore(self.bed, level)
         if edge:
             x, z = np.array(self.bed).T
             first = int(np.argmax(z > level))
             self.slope = float((z[first] - z[first - 1]) / (x[first] - x[first - 1]))
             self.place = float(x[first] - (z[first] - level) / self.slope)
+            self.top = float(beds.elevation(self.bed, edge[1]))
         walls = [one["from"][0] for one in self.obstacles if one["to"][2] > level]
         self.place = min([self.place, *walls])
 
@@ -187,9 +193,9 @@ def _runup(run, one, window, count, site, regular):
     part = run.table("runup")
     if not len(_inside(part, window)):
         return None
-    top = max(z for _, z in site.bed) - site.level
-    return shore.runup(one["name"], part["time"], part[f"{one['name']} level"] - site.level,
-                       window, one["thickness"], count, top, regular)  # fmt: skip
+    level = part[f"{one['name']} level"] - site.level
+    return shore.runup(one["name"], part["time"], level, window, one["thickness"], count,
+                       site.top - site.level, regular)  # fmt: skip
 
 
 def _overtopped(run, one, window, count, site, period):
@@ -203,8 +209,13 @@ def _overtopped(run, one, window, count, site, period):
 
 
 def _pushed(run, one, window, site, sea, arrival):
-    """The force on an end wall or an obstacle that stands out of the water; else None."""
-    found = [box for box in site.obstacles if box["name"] == one["on"]]
+    """The force on an end wall, or on an obstacle from the bed out of the water; else None."""
+    found = [
+        box
+        for box in site.obstacles
+        if box["name"] == one["on"]
+        and box["from"][2] <= beds.elevation(site.bed, box["from"][0]) + site.spacing
+    ]
     tank = site.case["tank"]
     if found:
         x, top = found[0]["from"][0], found[0]["to"][2]

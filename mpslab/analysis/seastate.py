@@ -155,9 +155,10 @@ def analyse(
         found, array = None, ()
         notes.append(f"no reflection: {error}")
     table = _table(numbers, known.whole is not None)
+    means = table["Tmean"][np.isfinite(table["Tmean"])]
     shore = coast.look(
         run, known.level, known.whole is not None, known.arrival, window, asked,
-        known.whole or float(np.nanmean(table["Tmean"])), found,
+        known.whole or (float(means.mean()) if len(means) else period), found,
     )  # fmt: skip
     return Sea(
         run=run,

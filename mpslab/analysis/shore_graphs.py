@@ -39,7 +39,7 @@ def _axes(sea, count, title):
 def draw_runup(sea):
     """The water's edge against time, with each run-up."""
     figure, axes = _axes(sea, len(sea.coast.runups), "Run-up above still water")
-    table, zero = sea.run.table("runup"), sea.run.tables["tank"]["depth"]
+    table, zero = sea.run.table("runup"), sea.coast.level
     for ax, one in zip(axes, sea.coast.runups, strict=True):
         ax.plot(table["time"], 1e3 * (table[f"{one.name} level"] - zero), linewidth=0.8)
         ax.plot(one.peaks["time"], 1e3 * one.peaks["level"], "o", color=COLOURS[1], markersize=3)
@@ -49,7 +49,7 @@ def draw_runup(sea):
 
 
 def draw_overtopping(sea):
-    """What has passed each plane against time, with the beginning of each event."""
+    """What has passed each plane against time, with the peak of each event."""
     figure, axes = _axes(sea, len(sea.coast.overtopped), "Volume that has passed")
     table, width = sea.run.table("overtopping"), sea.run.tables["tank"]["width"] or 1.0
     for ax, one in zip(axes, sea.coast.overtopped, strict=True):

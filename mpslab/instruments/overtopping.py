@@ -40,9 +40,8 @@ def _furthest(case):
     found = [0.0]
     for box in boxes:
         for low, high in obstacles.around(case, *box):
-            x = filling.columns(case, low, high)
-            wet = [place for place in x if beds.elevation(case.tank.bed, place) < high[2]]
-            found += wet[-1:]
+            x = np.array(filling.columns(case, low, high))
+            found.append(x[beds.elevation(case.tank.bed, x) < high[2]].max(initial=0.0))
     return max(found)
 
 

@@ -306,9 +306,9 @@ def _thin_layers(case, runup):
         layer = LAYER * (case.tank.depth + runup - crest) / case.particles.spacing
         if 0.0 < layer < THICK * (1.0 - 1e-9):
             yield (
-                f"overtopping.{i}: the layer on the crest would be about {layer:.2g} spacings thick, "
-                f"{THICK:g} or more resolve it (particles.spacing <= "
-                f"{layer / THICK * case.particles.spacing:.2g} m)"
+                f"overtopping.{i}: the layer on the crest would be about {layer:.2g} spacings; "
+                f"{THICK:g} or more resolve it, particles.spacing <= "
+                f"{layer / THICK * case.particles.spacing:.2g} m"
             )
 
 
