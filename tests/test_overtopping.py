@@ -33,7 +33,7 @@ def beyond(run, x):
 def counted(run, name):
     """Particles that have passed, onwards and back, by the last row."""
     row = run.table("overtopping")[-1]
-    size = D0 ** run.case.dim
+    size = D0**run.case.dim
     return [row[f"{name} {way}"] / size for way in ("onwards", "back")]
 
 
