@@ -1,7 +1,7 @@
 """The waves of a run, as an engineer reads them off: ``python -m mpslab.sea RUN``.
 
-At each gauge heights, periods and the spectrum; incident and reflected waves; tables, pictures and
-a page. From Python:
+At each gauge heights, periods and the spectrum; incident and reflected waves; run-up, overtopping
+and the force on walls beside EurOtop and Goda; tables, pictures and a page. From Python:
 
 >>> from mpslab import sea
 >>> found = sea.look("results", start=20.0)
@@ -71,7 +71,7 @@ def write(sea, folder=None):
         pictures[name] = content.getvalue()
         paths.append(folder / f"{name}.png")
         paths[-1].write_bytes(pictures[name])
-    for name in {"levels", "spectra", "harmonics", "reflection"} - set(pictures):
+    for name in set(graphs.NAMES) - set(pictures):
         (folder / f"{name}.png").unlink(missing_ok=True)
     html = folder / "page.html"
     html.unlink(missing_ok=True)
@@ -84,7 +84,8 @@ def write(sea, folder=None):
 def _parser():
     parser = Parser(
         prog="python -m mpslab.sea",
-        description="Waves of a run, finished or not: heights, periods, spectra and reflection.",
+        description="Waves of a run, finished or not: heights, periods, spectra, reflection; "
+        "run-up, overtopping and the force on walls.",
         epilog="Example: python -m mpslab.sea results --from 20 --gauges g1 g2 g3",
     )
     parser.add_argument("run", metavar="RUN", help="folder of a run")

@@ -19,7 +19,14 @@ from mpslab.output.run_folder import RunFolder, take
 from mpslab.parallel.rebalance import Rebalancer
 from mpslab.run import start
 from mpslab.run.actions import Actions
-from mpslab.run.guard import RunFailed, check_finite, check_lost, check_step, find_lost
+from mpslab.run.guard import (
+    DRAINED,
+    RunFailed,
+    check_finite,
+    check_lost,
+    check_step,
+    find_lost,
+)
 from mpslab.run.record import Record
 from mpslab.run.step import advance
 
@@ -333,7 +340,9 @@ class Simulation:
         particles = self._flow.particles
         lost = find_lost(self.case, particles, self._flow.solids.face(self.time))
         self._flow.done["leaving"] = lost
-        sides = [row[-1] for row in self._record.read("lost").get("lost", ())]
+        gone = self._record.read("lost").get("lost", [])
+        self._flow.done["gone"] = gone
+        sides = [row[-1] for row in gone if not row[-1].startswith(DRAINED)]
         self.lost += len(sides)
         self._sides.update(sides)
         if lost:

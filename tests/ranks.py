@@ -171,6 +171,16 @@ def series(changes):
     return run.domain.from_all(mine)
 
 
+def shore_series(changes):
+    """As `series`, of overtopping and run-up."""
+    from tanks import make_case
+
+    from mpslab.simulation import Simulation
+
+    run = Simulation(make_case(changes)).run()
+    return run.domain.from_all({n: run.table(n).tolist() for n in ("overtopping", "runup")})
+
+
 def spoiled(how, folder):
     """A run that goes wrong after its checkpoint of 9 ms: a rank raises, or its water is lost."""
     import numpy as np

@@ -18,17 +18,18 @@ from mpslab.core.parameters import LISTS, TABLES, Scheme
 from mpslab.theory import waves
 
 NAMES = (
+    "caisson",
     "dam_break",
     "focused_wave",
     "hydrostatic",
     "irregular_waves",
+    "overtopping",
     "plunging_breaker",
     "regular_waves",
     "solitary_runup",
     "standing_wave",
 )
-TWO_DIMENSIONAL = {"focused_wave", "hydrostatic", "irregular_waves", "regular_waves",
-                   "solitary_runup", "standing_wave"}  # fmt: skip
+TWO_DIMENSIONAL = set(NAMES) - {"dam_break", "plunging_breaker"}
 
 
 def small(**tables):
@@ -145,6 +146,19 @@ def test_other_built_in_cases_hold_what_their_comments_say():
     for case in (irregular, focused):
         length = waves.wavelength(case.wavemaker.period, case.tank.depth, case.fluid.gravity)
         assert case.tank.bed[1][0] > 2.0 * length
+    over, caisson = cases.load_case("overtopping"), cases.load_case("caisson")
+    for case in (over, caisson):
+        length = waves.wavelength(case.wavemaker.period, case.tank.depth, case.fluid.gravity)
+        kh = 2.0 * np.pi * case.tank.depth / length
+        assert kh == pytest.approx(0.8 if case is over else 1.5, rel=0.01)
+        wall = over.tank.bed[1][0] if case is over else caisson.obstacle[0].start[0]
+        assert wall == pytest.approx(2.0 * length, rel=0.08)
+    (x0, z0), (x1, z1) = over.tank.bed[1:3]
+    assert (x1 - x0) / (z1 - z0) == pytest.approx(3.0)
+    assert z1 - over.tank.depth == pytest.approx(0.009)
+    assert over.overtopping[0].x - x1 == pytest.approx(0.03)
+    assert caisson.overtopping[0].drain
+    assert caisson.obstacle[0].end[2] - caisson.tank.depth == pytest.approx(0.02)
     solitary = cases.load_case("solitary_runup")
     (x0, z0), (x1, z1) = solitary.tank.bed[1:]
     assert (x1 - x0) / (z1 - z0) == pytest.approx(19.85)

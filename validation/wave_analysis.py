@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from mpslab.theory.waves import group_celerity
+
 
 def decay(x, amplitude):
     """Rate b [1/m] of the fit A exp(-b x) to amplitudes (n,) at places x (n,) [m].
@@ -13,3 +15,23 @@ def decay(x, amplitude):
     """
     (slope, intercept), covariance = np.polyfit(x, np.log(amplitude), 1, cov=True)
     return np.array([-slope, np.exp(intercept), np.sqrt(covariance[0, 0])])
+
+
+def travel(run, to=None):
+    """Time that a group of the wavemaker's waves takes from the piston [s].
+
+    With the group velocity of linear theory in the local depth.
+
+    Parameters
+    ----------
+    run : validation.run.Run
+    to : float [m], optional
+        The still shoreline, or the end wall, when left out.
+    """
+    case = run.case
+    x = np.linspace(0.0, case.tank.length if to is None else to, 4000)
+    middle = 0.5 * (x[1:] + x[:-1])
+    depth = case.tank.depth - case.tank.bed_height(middle)
+    wet = middle < middle[np.argmax(depth <= 0.0)] if (depth <= 0.0).any() else depth > 0.0
+    speed = [group_celerity(case.wavemaker.period, h, run.gravity) for h in depth[wet]]
+    return float(np.sum(np.diff(x)[wet] / speed))

@@ -4,12 +4,14 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from mpslab.analysis import shore_graphs
 from mpslab.analysis.headings import heading
 from mpslab.analysis.pictures import COLOURS, STYLE
 from mpslab.analysis.seastate import AMPLITUDES
 
 MOST = 12  # gauges in a picture
 HIGHEST = 2.0  # times the largest density: so far up a band is drawn
+NAMES = ("levels", "spectra", "harmonics", "reflection", *shore_graphs.NAMES)
 SHOWN = 4.0  # times the peak frequency: so far a spectrum is drawn
 
 
@@ -23,7 +25,8 @@ def draw(sea):
     Yields
     ------
     str, matplotlib Figure
-        "levels", "spectra" or of regular waves "harmonics", "reflection".
+        "levels", "spectra" or of regular waves "harmonics", "reflection"; "runup", "overtopping"
+        and "walls".
     """
     with matplotlib.rc_context(STYLE):
         yield "levels", draw_levels(sea)
@@ -33,6 +36,7 @@ def draw(sea):
             yield "spectra", draw_spectra(sea)
         if sea.reflection is not None:
             yield "reflection", draw_reflection(sea)
+        yield from shore_graphs.draw(sea)
 
 
 def _shown(sea):

@@ -1,11 +1,10 @@
 """Sea states of a run: what its gauges say of the waves, incident and reflected ones too."""
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
-from mpslab.analysis import arrays, crossings, eurotop, readings, reflection, spectrum, windows
+from mpslab.analysis import arrays, coast, crossings, readings, reflection, spectrum, windows
 from mpslab.analysis.harmonics import HARMONICS, harmonics
 from mpslab.core import bed
 from mpslab.run.preflight import REGULAR
@@ -55,8 +54,8 @@ class Sea:
     reflection : mpslab.analysis.reflection.Reflection or None
     array : tuple of str
         Gauges that the reflection was taken from.
-    expected : (n,) structured array
-        Of `mpslab.analysis.eurotop.table`: what EurOtop expects of the incident waves.
+    coast : mpslab.analysis.coast.Coast
+        Run-up, overtopping, the force on walls, and what is expected of the incident waves.
     notes : tuple of str
         What has to be known of these numbers, a line each.
     """
@@ -74,8 +73,13 @@ class Sea:
     waves: dict
     reflection: object
     array: tuple
-    expected: np.ndarray
+    coast: coast.Coast
     notes: tuple
+
+    @property
+    def expected(self):
+        """What EurOtop expects of the incident waves, as of `mpslab.analysis.eurotop.table`."""
+        return self.coast.expected
 
 
 def analyse(
@@ -150,6 +154,12 @@ def analyse(
     except ValueError as error:
         found, array = None, ()
         notes.append(f"no reflection: {error}")
+    table = _table(numbers, known.whole is not None)
+    means = table["Tmean"][np.isfinite(table["Tmean"])]
+    shore = coast.look(
+        run, known.level, known.whole is not None, known.arrival, window, asked,
+        known.whole or (float(means.mean()) if len(means) else period), found,
+    )  # fmt: skip
     return Sea(
         run=run,
         regular=known.whole is not None,
@@ -159,13 +169,13 @@ def analyse(
         band=band,
         crossing=crossing,
         readings=seen,
-        gauges=_table(numbers, known.whole is not None),
+        gauges=table,
         spectra=spectra,
         waves=waves,
         reflection=found,
         array=array,
-        expected=_expected(known, found),
-        notes=tuple(notes),
+        coast=shore,
+        notes=(*notes, *shore.notes),
     )
 
 
@@ -233,15 +243,8 @@ class _Known:
         """The window of the reflection, and a note or none."""
         if not self.arrival or not rows:
             return window, ""
-        return self.arrival.back(self.x[rows].min(), self.shore()[0], window)
-
-    def shore(self):
-        """Where the still water ends [m], and the slope of the bed there, 0 at the end wall."""
-        for (x, z), (right, top) in pairwise(self.case["tank"].get("bed") or ()):
-            if top > self.level > z:
-                slope = (top - z) / (right - x)
-                return x + (self.level - z) / slope, slope
-        return self.case["tank"]["length"], 0.0
+        far = coast.Site(self.case, self.level).place
+        return self.arrival.back(self.x[rows].min(), far, window)
 
 
 def _dry_notes(seen):
@@ -356,14 +359,3 @@ def _left_out_notes(found):
         "of the gauges cannot tell incident from reflected waves"
         + (f" (all of {bands} Hz)" if bands else "")
     ]
-
-
-def _expected(known, found):
-    """What EurOtop expects of the incident waves on the slope of the case, a table."""
-    slope = known.shore()[1]
-    if found is None or known.whole or not slope:
-        return eurotop.table([])
-    period = np.nansum(found.incident / found.frequency) / np.nansum(found.incident)
-    return eurotop.table(
-        [eurotop.runup(found.incident_height, float(period), slope, known.gravity)]
-    )

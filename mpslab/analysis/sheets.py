@@ -5,6 +5,7 @@ import json
 
 import numpy as np
 
+from mpslab.analysis import shoreside
 from mpslab.analysis.seastate import UNITS
 
 PRINTED = ("x", "mean", "Hm0", "Hm0 scatter", "Tp", "Tm-1,0", "N", "H1/3", "H1/10", "Hmax")
@@ -16,8 +17,9 @@ def write(sea, folder):
     """Write the tables of a sea state into a folder.
 
     ``gauges.csv``, ``waves.csv`` (one by one), ``spectra.csv`` (with their 95 % bands; of regular
-    waves without), ``reflection.csv`` if there is one, and ``sea.json``, which has all but the
-    waves and spectra.
+    waves without), ``reflection.csv``, ``runups.csv``, ``overtopping.csv`` (its events) and
+    ``walls.csv`` if there are any, and ``sea.json``, which has all but the single waves and the
+    spectra.
 
     Parameters
     ----------
@@ -31,28 +33,29 @@ def write(sea, folder):
     tables = {"gauges": _gauges(sea), "waves": _waves(sea), "spectra": _spectra(sea)}
     if sea.reflection is not None:
         tables["reflection"] = _reflection(sea.reflection)
+    tables |= shoreside.tables(sea.coast)
     paths = []
     for name, (headings, rows) in tables.items():
         paths.append(folder / f"{name}.csv")
         with paths[-1].open("w", newline="", encoding="utf-8") as file:
-            csv.writer(file, lineterminator="\n").writerows([headings, *rows])
+            csv.writer(file, lineterminator="\n").writerows([headings, *map(_cells, rows)])
     paths.append(folder / "sea.json")
     text = json.dumps(plain(as_dict(sea)), indent=2, allow_nan=False)
     paths[-1].write_text(text + "\n", encoding="utf-8")
-    if sea.reflection is None:
-        (folder / "reflection.csv").unlink(missing_ok=True)
+    for name in {"reflection", "runups", "overtopping", "walls"} - set(tables):
+        (folder / f"{name}.csv").unlink(missing_ok=True)
     return paths
 
 
 def _gauges(sea):
     names = sea.gauges.dtype.names
     headings = [f"{name} [{UNITS[name]}]" if name in UNITS else name for name in names]
-    return headings, [_cells(row) for row in sea.gauges]
+    return headings, [list(row) for row in sea.gauges]
 
 
 def _waves(sea):
     headings = ["gauge", "time [s]", "period [s]", "height [m]", "crest [m]", "trough [m]"]
-    return headings, [[name, *_cells(wave)] for name, waves in sea.waves.items() for wave in waves]
+    return headings, [[name, *wave] for name, waves in sea.waves.items() for wave in waves]
 
 
 def _spectra(sea):
@@ -64,14 +67,14 @@ def _spectra(sea):
         if not sea.regular:
             headings += [f"{name} low [m2 s]", f"{name} high [m2 s]"]
             columns += spectrum.band()
-    return headings, [_cells(row) for row in zip(*columns, strict=True)]
+    return headings, [list(row) for row in zip(*columns, strict=True)]
 
 
 def _reflection(found):
     unit = "m" if found.regular else "m2 s"
     headings = ["frequency [Hz]", *(f"{n} [{unit}]" for n in ("incident", "reflected", "residual"))]
     columns = found.frequency, found.incident, found.reflected, found.residual
-    return headings, [_cells(row) for row in zip(*columns, strict=True)]
+    return headings, [list(row) for row in zip(*columns, strict=True)]
 
 
 def _cells(row):
@@ -116,6 +119,7 @@ def as_dict(sea):
             "floor": found.floor,
             "lost": found.lost,
         },
+        **shoreside.as_dict(sea.coast),
         "expected": [dict(zip(sea.expected.dtype.names, row, strict=True)) for row in sea.expected],
         "notes": list(sea.notes),
     }
@@ -145,6 +149,7 @@ def lines(sea):
     shown = [f"{kind}; {sea.window}; heights from {sea.band[0]:.3g} to {sea.band[1]:.3g} Hz"]
     shown += _table(*gauge_table(sea))
     shown += [f"  {line}" for line in reflection_lines(sea)]
+    shown += [f"  {line}" for line in shoreside.lines(sea.coast)]
     shown += [f"  {line}" for line in expected_lines(sea)]
     return shown + [f"  ({note})" for note in sea.notes]
 
@@ -205,7 +210,12 @@ def expected_lines(sea):
     return [
         f"EurOtop 2018 ({row['relation']}): {row['name']} = {row['mean']:.3g} {row['unit']}, "
         f"{row['low']:.3g} to {row['high']:.3g} in 90 of 100"
-        + (f"; measured {row['measured']:.3g}" if np.isfinite(row["measured"]) else "")
+        + (_measured(row) if np.isfinite(row["measured"]) else "")
         + (f" (outside of its tests: {row['doubts']})" if row["doubts"] else "")
         for row in sea.expected
     ]
+
+
+def _measured(row):
+    where = "in" if row["inside"] else "below" if row["measured"] < row["low"] else "above"
+    return f"; measured {row['measured']:.3g}, {where} the band"

@@ -7,13 +7,15 @@ from mpslab.core import timestep
 from mpslab.core.parameters import Case
 from mpslab.forcings.frame import strongest
 
+THICKNESS = 2.0  # spacings of water that a run-up wants unless told
+
 
 def complete(case: Case) -> Case:
     """The case with nothing left open; a case that is complete comes back equal.
 
     Left open by 0 or [], or left out: wall height, bed, wall layers, limits of the time step,
-    output intervals, names of solids, the axis of a roll, and y of the instruments. In a 2-D tank
-    every y is 0.
+    output intervals, names of solids, the axis of a roll, the thickness of a run-up, and y of the
+    instruments. In a 2-D tank every y is 0.
     """
     tank = _tank(case.tank)
     frame = replace(case.frame, center=case.frame.center or (0.5 * tank.length, 0.0))
@@ -29,6 +31,7 @@ def complete(case: Case) -> Case:
         output=_output(case),
         gauge=tuple(_across(gauge, tank) for gauge in case.gauge),
         probe=tuple(_across(probe, tank) for probe in case.probe),
+        runup=tuple(_thick(_across(runup, tank), case) for runup in case.runup),
     )
 
 
@@ -67,6 +70,10 @@ def _across(instrument, tank):
     return replace(
         instrument, y=middle if instrument.y is None or tank.width == 0.0 else instrument.y
     )
+
+
+def _thick(runup, case):
+    return replace(runup, thickness=runup.thickness or THICKNESS * case.particles.spacing)
 
 
 def _boxes(boxes, tank):

@@ -51,6 +51,35 @@ def slope(bed, x):
     return np.where(np.asarray(x) < points[0, 0], 0.0, steep[inside])
 
 
+def shore(bed, level):
+    """The slope on which a level meets the bed.
+
+    Parameters
+    ----------
+    bed : sequence of (x, z) [m], x ascending
+    level : float [m]
+        Of the still water.
+
+    Returns
+    -------
+    foot, top : float [m]
+        x from where the bed rises all the way, and of the landward end of its crest, behind which
+        it falls or ends; None where the bed does not rise out of the water.
+    """
+    x, z = _points(bed).T
+    dry = np.flatnonzero(z > level)
+    if not len(dry) or dry[0] == 0:
+        return None
+    foot = top = dry[0]
+    while foot > 0 and z[foot - 1] <= z[foot]:
+        foot -= 1
+    while z[foot + 1] == z[foot]:
+        foot += 1
+    while top < len(z) - 1 and z[top + 1] >= z[top]:
+        top += 1
+    return float(x[foot]), float(x[top])
+
+
 def extended(bed, before, after):
     """The bed carried on: level before the first point, with its slope after the last."""
     points = _points(bed)

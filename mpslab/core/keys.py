@@ -10,6 +10,9 @@ class CaseError(ValueError):
     """A case that cannot be run: one line with the key, its value and the allowed range."""
 
 
+# A name becomes the heading of a column, or part of a file name.
+NAME = {"kind": "text", "forbidden": ",;\"'[]/\\#", "longest": 80}
+
 # What a key holds, where it is not said, follows from the type of its default.
 _KINDS = {bool: "flag", int: "integer", str: "text"}
 

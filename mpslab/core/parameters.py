@@ -8,12 +8,9 @@ from dataclasses import dataclass, field, fields
 
 from mpslab.core.bed import elevation
 from mpslab.core.drive import Frame, Initial, Wavemaker
-from mpslab.core.keys import CaseError, check_table, check_value, key, shown
+from mpslab.core.keys import NAME, CaseError, check_table, check_value, key, shown
+from mpslab.core.readings import Force, Gauge, Overtopping, Probe, Runup
 from mpslab.core.scheme import Scheme
-
-# A name becomes the heading of a column, or part of a file name.
-NAME = {"kind": "text", "forbidden": ",;\"'[]/\\#", "longest": 80}
-
 
 @dataclass(frozen=True, kw_only=True)
 class Tank:
@@ -255,7 +252,10 @@ class Output:
     )
     checkpoint: float = key("time between checkpoints; 0 for end / 5", 0.0, unit="s", low=0)
     gauge_interval: float = key(
-        "time between readings of gauges, probes and forces; 0 for every step", 0.0, unit="s", low=0
+        "time between readings of gauges, probes, forces, run-up and overtopping; 0 for every step",
+        0.0,
+        unit="s",
+        low=0,
     )
     pictures: tuple = key(
         "times of the pictures; [] to spread them over the run", (), kind="numbers", unit="s", low=0
@@ -290,55 +290,6 @@ class Sponge:
         check_table(self)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Gauge:
-    """A wave gauge: reads the surface elevation at x, y."""
-
-    name: str = key("heading of its column", **NAME)
-    x: float = key(
-        "distance from the wavemaker at rest; a list for a gauge at each place, NAME-1 and so on",
-        unit="m",
-        low=0,
-    )
-    y: float | None = key("place across the tank; mid width if left out", None, unit="m", low=0)
-
-    def __post_init__(self):
-        check_table(self)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Probe:
-    """A probe: reads pressure and velocity at x, y, z."""
-
-    name: str = key("heading of its columns", **NAME)
-    x: float = key("distance from the wavemaker at rest", unit="m", low=0)
-    y: float | None = key("place across the tank; mid width if left out", None, unit="m", low=0)
-    z: float = key("height above z = 0", unit="m", low=0)
-
-    def __post_init__(self):
-        check_table(self)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Force:
-    """Force and moment on a solid, the mean since the row before, in forces.csv."""
-
-    name: str = key("heading of its columns", **NAME)
-    on: str = key(
-        "what it is on: tank, bed, end_wall, piston, or the name of an obstacle, a gate or a solid",
-        kind="text",
-    )
-    about: tuple = key(
-        "point [x, y, z] that the moment is taken about; y does not count in 2-D",
-        (0.0, 0.0, 0.0),
-        kind="point",
-        unit="m",
-    )
-
-    def __post_init__(self):
-        check_table(self)
-
-
 # Tables of a case, in the order in which they are written; those of LISTS may come several times.
 TABLES = {
     "tank": Tank,
@@ -361,6 +312,8 @@ LISTS = {
     "gauge": Gauge,
     "probe": Probe,
     "force": Force,
+    "runup": Runup,
+    "overtopping": Overtopping,
 }
 
 
@@ -388,6 +341,8 @@ class Case:
     gauge: tuple[Gauge, ...] = ()
     probe: tuple[Probe, ...] = ()
     force: tuple[Force, ...] = ()
+    runup: tuple[Runup, ...] = ()
+    overtopping: tuple[Overtopping, ...] = ()
 
     def __post_init__(self):
         for item in fields(self):

@@ -22,17 +22,20 @@ def read_near(flow, places, reach, read):
     list
         Empty where there are no places.
     """
-    if not places:
-        return []
+    return read_of(flow, within(flow.particles, places, reach), read) if places else []
+
+
+def read_of(flow, rows, read):
+    """As `read_near`, of some rows of this rank's particles, by mask or numbers."""
     domain = flow.domain
-    particles = domain.gather(_near(flow, places, reach))
+    particles = domain.gather(flow.particles.take(rows))
     return domain.from_all(None if particles is None else read(particles))[0]
 
 
-def _near(flow, places, reach):
-    """This rank's particles within the reach of a place."""
+def within(particles, places, reach):
+    """Rows of the particles within a reach of a place along the tank, (m,) int32."""
     starts, ends = np.sort(places) - reach, np.sort(places) + reach
     apart = starts[1:] > ends[:-1]
     starts, ends = starts[np.append(True, apart)], ends[np.append(apart, True)]
-    rows = np.empty(len(flow.particles), np.int32)
-    return flow.particles.take(rows[: column.within(flow.particles.position, starts, ends, rows)])
+    rows = np.empty(len(particles), np.int32)
+    return rows[: column.within(particles.position, starts, ends, rows)]

@@ -1,4 +1,4 @@
-"""Particles that left the tank."""
+"""Particles that left the tank, or were taken out of it by a plane that drains."""
 
 from mpslab.core.columns import LOST_COLUMNS
 from mpslab.instruments import Instrument
@@ -15,7 +15,7 @@ class Lost(Instrument):
     name = "lost"
     columns = LOST_COLUMNS
     interval = None
-    words = {"reason": 64}  # noqa: RUF012
+    words = {"reason": 100}  # noqa: RUF012
 
     def read(self, flow):
         """A row for each particle that the last step lost, on any rank."""

@@ -10,6 +10,7 @@ from mpslab.solids import obstacles, shaped
 
 MOST_LOST = 1e-3  # of the fluid particles at the start
 FEW_LOST = 5  # may be lost by any run
+DRAINED = "drained by "  # and the name of the plane: what is taken out on purpose
 
 
 class RunFailed(RuntimeError):
@@ -18,14 +19,16 @@ class RunFailed(RuntimeError):
 
 @dataclass(frozen=True)
 class Lost:
-    """Fluid particles that left the tank: row numbers (n,) int and the side they left by."""
+    """Fluid particles that leave the tank: row numbers (n,) int and the side they leave by."""
 
     rows: np.ndarray
     reason: str
 
 
 def find_lost(case, particles, face):
-    """Fluid particles behind a wall by more than a spacing, as a list of `Lost`.
+    """Fluid particles behind a wall by more than a spacing, or beyond a plane that drains.
+
+    Returns a list of `Lost`; the reason of what drains begins with `DRAINED`.
 
     Parameters
     ----------
@@ -46,7 +49,8 @@ def find_lost(case, particles, face):
         out = (position[:, 1] < -spacing) | (position[:, 1] > width + spacing)
         walls.append(("a side wall", out))
     high = position[:, 2] > case.tank.height
-    sides = [(f"over {wall}", out & high) for wall, out in walls]
+    sides = [(DRAINED + one.name, position[:, 0] > one.x) for one in case.overtopping if one.drain]
+    sides += [(f"over {wall}", out & high) for wall, out in walls]
     sides += [(f"behind {wall}", out & ~high) for wall, out in walls]
     bed = case.tank.bed_height(position[:, 0])
     sides.append(("below the bed", position[:, 2] < bed - spacing))
@@ -70,8 +74,9 @@ def _may_be_lost(case, particles, face):
     if case.obstacle or case.solid:
         return np.flatnonzero(particles.fluid)
     tank, rows = case.tank, np.empty(len(particles), np.int32)
+    drains = [one.x for one in case.overtopping if one.drain]
     low = np.array([face, -np.inf, -np.inf])
-    high = np.array([min(effective_length(case), tank.length), np.inf, np.inf])
+    high = np.array([min(effective_length(case), tank.length, *drains), np.inf, np.inf])
     if tank.width > 0.0 and not tank.periodic:
         low[1], high[1] = 0.0, rows_across(case) * case.particles.spacing
     if tank.lid:

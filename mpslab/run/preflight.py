@@ -35,6 +35,7 @@ LEAST_STROKE = 0.1  # spacings
 MUCH = 0.05  # that a sponge reflects
 REGULAR = ("linear", "second_order", "cnoidal", "stream_function")
 SEAS = ("irregular", "focused", "bichromatic")
+LAYER, THICK = 0.2, 4.0  # of the layer on a crest: over the run-up above it, and spacings wanted
 SHORTEST_WAVE = 8.0  # spacings: shorter waves are damped soon
 
 
@@ -343,10 +344,11 @@ def _beach(case, height, period, notes):
     runup = breaking.hunt_runup(deep_height, period, slope, gravity)
     top = max(z for _, z in case.tank.bed)
     highest = case.tank.depth + runup
-    if top < highest:
+    if top < highest and not case.overtopping:
         notes.append(
             f"run-up of {highest:.4g} m would reach over the beach, whose top is at {top:g} m"
         )
+    notes += _thin_layers(case, runup)
     if at < 5.0 * case.particles.spacing:
         notes.append(
             f"the wave breaks in a depth of {at / case.particles.spacing:.2g} spacings; a clear "
@@ -358,6 +360,19 @@ def _beach(case, height, period, notes):
         "breaking_in_range": slope <= breaking.GODA_STEEPEST * (1.0 + 1e-9),
         "runup [m]": runup,
     }
+
+
+def _thin_layers(case, runup):
+    """Crests over which the water would come too thin, as EurOtop (2018) expects on 1:3."""
+    for i, plane in enumerate(case.overtopping):
+        crest = max([z for x, z in case.tank.bed if x <= plane.x])
+        layer = LAYER * (case.tank.depth + runup - crest) / case.particles.spacing
+        if 0.0 < layer < THICK * (1.0 - 1e-9):
+            yield (
+                f"overtopping.{i}: the layer on the crest would be about {layer:.2g} spacings; "
+                f"{THICK:g} or more resolve it, particles.spacing <= "
+                f"{layer / THICK * case.particles.spacing:.2g} m"
+            )
 
 
 def _solitary_wave(case, height):
