@@ -5,8 +5,8 @@ from pathlib import Path
 
 from mpslab.cases import changes, reader
 from mpslab.cases.builtin import FOLDER, names, unknown
-from mpslab.core.keys import CaseError, shown
-from mpslab.core.keys import NAME, Case
+from mpslab.core.keys import NAME, CaseError, shown
+from mpslab.core.parameters import Case
 
 MOST_BYTES = 1_000_000  # of a case file
 

@@ -12,6 +12,7 @@ from mpslab.core.keys import NAME, CaseError, check_table, check_value, key, sho
 from mpslab.core.readings import Force, Gauge, Overtopping, Probe, Runup
 from mpslab.core.scheme import Scheme
 
+
 @dataclass(frozen=True, kw_only=True)
 class Tank:
     """The tank, from the wavemaker at x = 0 to the end wall; z = 0 is the lowest bed."""

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from mpslab.core.keys import check_value
-from mpslab.core.keys import NAME
+from mpslab.core.keys import NAME, check_value
 from mpslab.core.particles import FIRST_SOLID, PISTON, TANK
 from mpslab.solids import gates, obstacles, shaped
 from mpslab.solids.piston import Piston
