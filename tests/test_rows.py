@@ -28,7 +28,7 @@ def test_vectors_are_taken_and_padded():
     np.testing.assert_array_equal(padded, np.column_stack([v, np.zeros(N)]))
 
 
-@pytest.mark.parametrize("change", [some(), np.array([0.0, 0.5, -9.81])])
+@pytest.mark.parametrize("change", [some(), np.array([0.0, 0.5, -9.81]), np.asfortranarray(some())])
 def test_changes_are_added_where_the_mask_says_so(change):
     v, mask = some(), RANDOM.random(N) < 0.3
     expected = np.where(mask[:, None], v + change, v)

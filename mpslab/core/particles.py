@@ -18,12 +18,13 @@ def carries_pressure(role):
 
 
 def add_where(mask, vectors, change):
-    """Add to the vectors (n, 3) that a mask (n,) bool has a change [(3,) or (n, 3)], in place."""
-    vectors_.add(vectors, np.atleast_2d(change), mask.view(np.uint8))
+    """Add a change, (3,) or (n, 3), to those of the vectors (n, 3) that a mask has, in place."""
+    change = np.ascontiguousarray(np.atleast_2d(change), float)
+    vectors_.add(vectors, change, mask.view(np.uint8))
 
 
 def put_where(mask, vectors, others):
-    """Put others (n, 3) in place of the vectors (n, 3) that a mask (n,) bool has."""
+    """Put others (n, 3) in place of those of the vectors (n, 3) that a mask has."""
     vectors_.put(vectors, others, mask.view(np.uint8))
 
 

@@ -66,17 +66,18 @@ def spread(const double[::1] height, const double[::1] weight, const unsigned ch
 
 
 def top(const double[::1] fluid, const double[::1] solid, int gap, double least_room):
-    """Where water fills half of the room that the solids leave, highest in the lowest connected
-    part of a column.
+    """The highest place where water fills half of the room that the solids leave, in the lowest
+    connected part of a column.
 
-    The excess of water over that half is linear between points; it is negative at the last one.
+    Between points, the excess of water over that half is linear; at the last point it is negative.
 
     fluid, solid : (m,) shares at the points
-    gap : the column ends where more points in a row than that, less one, have half of nothing
-    least_room : share that counts as left where it is less
+    gap : points where water and solids together fill half of the room or more are of one part if
+        they are no farther apart than so many points
+    least_room : share of room that is taken to be left where it is less
 
-    Returns a point, and which part of the way to the next one; -1 and not-a-number where it does
-    nowhere.
+    Returns the point below that place, and which part of the way to the next point it is above it;
+    -1 and not-a-number where there is no such place.
     """
     cdef Py_ssize_t k, last = -1, wet = -1
     cdef double excess, above, part = float("nan")
@@ -98,7 +99,9 @@ def top(const double[::1] fluid, const double[::1] solid, int gap, double least_
 
 def within(const double[:, ::1] position, const double[::1] starts, const double[::1] ends,
            int[::1] rows):
-    """rows = the particles between a start and the end that belongs to it, along the tank [m].
+    """rows = the particles that are, along the tank, between a start and its end [m].
+
+    starts, ends : (k,)
 
     Returns how many there are.
     """

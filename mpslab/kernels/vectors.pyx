@@ -21,7 +21,7 @@ def pad(const double[:, ::1] vectors, double[:, ::1] out):
 
 
 def add(double[:, ::1] vectors, const double[:, ::1] change, const unsigned char[::1] mask):
-    """Add a change, or one of one row to all, to the vectors that a mask has."""
+    """Add a change to those of the vectors that a mask has; one of a single row, to each."""
     cdef Py_ssize_t i, j, each = change.shape[0] > 1
     with nogil:
         for i in range(mask.shape[0]):
@@ -33,7 +33,7 @@ def add(double[:, ::1] vectors, const double[:, ::1] change, const unsigned char
 
 
 def put(double[:, ::1] vectors, const double[:, ::1] others, const unsigned char[::1] mask):
-    """Put others in place of the vectors that a mask has."""
+    """Put others in place of those of the vectors that a mask has."""
     cdef Py_ssize_t i
     with nogil:
         for i in range(mask.shape[0]):

@@ -17,4 +17,6 @@ solid alone. A module whose sums need more than the pair has a second function::
     as_pairs(near) -> gradient, pressure
 
 a gradient that looks at one pair at a time, and a pressure, (n,), with which that gives the same.
+
+Gradients that differ only in what multiplies r_ij w / r^2 share their loop, `_pairs.by_pairs`.
 """

@@ -1,16 +1,15 @@
 """Pressure gradient of the Corrected MPS method (CMPS)."""
+
 from dataclasses import replace
 
-import numpy as np
-
 from mpslab.models.gradients import symmetric
-from mpslab.kernels.minimum import least_pressure
+from mpslab.models.gradients._pairs import least
 
 CONSERVES_MOMENTUM = True
 EXACT_FOR_LINEAR = False
 
 
-def gradient(near, double[:, ::1] out):
+def gradient(near, out):
     """<grad p>_i = (Ds/n0) sum_j ((p_i + p_j) - (p^_i + p^_j)) r_ij w / r^2.
 
     Equation (4) of the paper, with the square that its print lacks: the pair force is equal and
@@ -23,13 +22,5 @@ def gradient(near, double[:, ::1] out):
 
 
 def as_pairs(near):
-    """That of `symmetric`, and p - p^ [Pa]."""
-    return symmetric.gradient, above_least(near)
-
-
-def above_least(near):
-    """p - p^ of all particles, (n,) float64 [Pa]."""
-    pressure = near.particles.pressure
-    least = np.empty_like(pressure)
-    least_pressure(near.row, near.other, near.offset, pressure, near.loaded, least)
-    return pressure - least
+    """The gradient `symmetric`, and p - p^ [Pa]."""
+    return symmetric.gradient, near.particles.pressure - least(near)
