@@ -21,7 +21,11 @@ def test_every_key_is_written_with_its_unit_and_meaning():
     force = {"name": "wall", "on": "end_wall"}
     pile = {"shape": "cylinder", "axis": "z", "center": [0.75, 0.075, 0.0], "radius": 0.03}
     pile |= {"ends": [0.0, 0.3]}
-    several = {"obstacle": [box], "gate": [gate], "solid": [pile], "force": [force]}
+    several = {"obstacle": [box], "gate": [gate], "solid": [pile], "force": [force],
+               "sponge": [{"from": 1.0, "to": 1.6, "period": 1.0}],
+               "runup": [{"name": "runup"}],
+               "overtopping": [{"name": "crest", "x": 1.5}],
+               "tank.bed": [[0.0, 0.0], [1.2, 0.0], [1.61, 0.35]]}  # fmt: skip
     text = cases.dumps(cases.load_case("dam_break", several))
     for kind in (*TABLES.values(), *LISTS.values()):
         for item in fields(kind):
@@ -84,7 +88,7 @@ def valid_tables(draw):
         "wavemaker": {
             "type": "still",
             "file": draw(line()),
-            **draw(numbers_of("wavemaker", "stroke")),
+            **draw(numbers_of("wavemaker", "stroke", "room")),
         },
         "output": draw(numbers_of("output")) | {"pictures": draw(st.lists(st.floats(0.0, 1e9)))},
         "gauge": [
