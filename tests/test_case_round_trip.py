@@ -25,6 +25,7 @@ def test_every_key_is_written_with_its_unit_and_meaning():
                "sponge": [{"from": 1.0, "to": 1.6, "period": 1.0}],
                "runup": [{"name": "runup"}],
                "overtopping": [{"name": "crest", "x": 1.5}],
+               "probe": [{"name": "P", "x": 0.5, "z": 0.1}],
                "tank.bed": [[0.0, 0.0], [1.2, 0.0], [1.61, 0.35]]}  # fmt: skip
     text = cases.dumps(cases.load_case("dam_break", several))
     for kind in (*TABLES.values(), *LISTS.values()):
