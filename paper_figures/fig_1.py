@@ -16,12 +16,10 @@ def draw(found):
     """The figure, from the kept results of its runs."""
     figure = Figure(figsize=(15.0, 10.0), layout="constrained")
     grid = figure.add_gridspec(len(RUNS), 3, width_ratios=(1.0, 1.0, 1.25))
-    first = None
     for k, name in enumerate(RUNS):
         run = found[name]
         for j, time in enumerate((BEFORE, JET)):
-            ax = figure.add_subplot(grid[k, j], sharex=first, sharey=first)
-            first = first or ax
+            ax = figure.add_subplot(grid[k, j])
             draw_side(ax, run, run.near(time), LIMITS)
         colours = draw_scene(figure.add_subplot(grid[k, 2]), run, run.near(JET), LIMITS[0])
     add_u_bar(figure, figure.axes, colours)

@@ -13,7 +13,7 @@ CAPTION = "Touch-down of the jet and splash-up: particles coloured by u"
 def draw(found):
     """The figure, from the kept results of its runs."""
     figure = Figure(figsize=(11.0, 10.5), layout="constrained")
-    axes = figure.subplots(len(RUNS), 2, sharex=True, sharey=True)
+    axes = figure.subplots(len(RUNS), 2, sharey=True)
     for row, name in zip(axes, RUNS, strict=True):
         for ax, time in zip(row, (TOUCH_DOWN, SPLASH_UP), strict=True):
             discs = draw_side(ax, found[name], found[name].near(time), LIMITS)

@@ -18,9 +18,10 @@ from paper_figures.measures import measure
 
 TIMES = (1.0, 1.04, 1.09, 1.12, 1.16, 1.2)  # [s] of the snapshots, where the wave is not late
 CUTS = (0.0, 0.88, 1.12)  # [s] of figure 4
+SPEED = 0.6  # [m/s] of the wave: so much farther a late one breaks
 RANKS = 8  # of figure 4
 METHODS = ("static", "centroid", "optimal")
-WINDOW = (0.22, 0.50)  # [m] along the tank, of the snapshots: where the waves break
+WINDOW = (0.22, 0.50)  # [m] along the tank, of the snapshots: where a wave breaks that is not late
 FIRST = 0.57  # share of the run, 0.8 s, from which measures are taken: the first crest is steep
 STEPS = {"step": "{:.0f}", "time [s]": "{:.6f}", "iterations": "{:.0f}", "seconds": "{:.4f}"}
 RECORD = ("versions", "machine", "commit", "started", "ended", "wall_time [s]", "resumed",
@@ -86,7 +87,8 @@ def _keep_water(folder, target, late):
         if time > FIRST * case.time.end:
             rows.append(measure(time, place, velocity, spacing, width, case.tank.bed))
         for name in near[index]:
-            seen = (place[:, 0] > WINDOW[0]) & (place[:, 0] < WINDOW[1])
+            along = place[:, 0] - SPEED * late
+            seen = (along > WINDOW[0]) & (along < WINDOW[1])
             _pack(arrays, f"near {name}", time, place[seen], velocity[seen, 0])
         for name in tank[index]:
             middle = np.abs(place[:, 1] - 0.5 * width + 0.25 * spacing) < 0.5 * spacing

@@ -9,7 +9,7 @@ import numpy as np
 
 from mpslab import open_run
 from mpslab.output.tables import read_table
-from paper_figures.keep import LEVELS, MILLIMETRE
+from paper_figures.keep import LEVELS, MILLIMETRE, SPEED
 from paper_figures.samples import TABLE, TOPS
 
 
@@ -62,6 +62,10 @@ class Kept:
     def late(self):
         """By how much its wave breaks later than the paper's [s]."""
         return self.record["late"]
+
+    def moved(self, along):
+        """What a picture shows of the tank (2,) [m], moved as far as a late wave breaks farther."""
+        return along[0] + SPEED * self.late, along[1] + SPEED * self.late
 
     @property
     def width(self):

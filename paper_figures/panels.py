@@ -54,15 +54,14 @@ def draw_side(ax, run, water, limits):
     run : paper_figures.kept.Kept
     water : paper_figures.kept.Water
     limits : ((float, float), (float, float)) [m]
-        Of x and of z.
+        Of x, where the wave is not late, and of z.
     """
     seen = layer(water, run)
     place, size = water.position[seen][:, [0, 2]], CLOSED * run.spacing
     discs = draw_discs(ax, place, size, array=water.u[seen], cmap=COLOURS, norm=U)
     draw_bed(ax, run)
-    ax.set(xlim=limits[0], ylim=limits[1], aspect="equal", xlabel="x [m]", ylabel="z [m]")
+    ax.set(xlim=run.moved(limits[0]), ylim=limits[1], aspect="equal", xlabel="x [m]", ylabel="z [m]")
     ax.set_title(f"{name_of(run)}, t = {water.time:.2f} s", loc="left")
-    ax.label_outer()
     return discs
 
 
@@ -74,7 +73,7 @@ def draw_scene(ax, run, water, along, as_surface=False):
     ax, run, water
         As for `draw_side`.
     along : (float, float) [m]
-        What is seen of the tank.
+        What is seen of the tank, where the wave is not late.
     as_surface : bool
         Its surface, in place of particles.
 
@@ -82,6 +81,7 @@ def draw_scene(ax, run, water, along, as_surface=False):
     -------
     matplotlib ScalarMappable, of u
     """
+    along = run.moved(along)
     box = along, (0.0, run.width), (np.interp(along[0], *_bed(run)), HIGHEST)
     seen = fitted(box, PIXELS, azimuth=-40.0, elevation=24.0)
     picture = scene.draw(water.position, run.spacing, seen, water.u, COLOURS, (U.vmin, U.vmax),
