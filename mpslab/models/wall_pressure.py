@@ -32,7 +32,7 @@ def pull(particles, before, force, dt, moving):
 
 
 def predicted_velocity(particles, pull_, dt):
-    """u* of all particles, before the pressure acts; of solids too, u* = u_wall + (f - a) dt."""
+    """u* of all particles: solids, too, before the pressure acts, u* = u_wall + (f - a) dt."""
     return particles.velocity + dt * pull_ * on_axes(particles.role != FLUID)
 
 

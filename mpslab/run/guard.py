@@ -8,7 +8,7 @@ from mpslab.core.lattice import effective_length, rows_across
 from mpslab.solids import obstacles
 
 MOST_LOST = 1e-3  # of the fluid particles at the start
-FEW_LOST = 5  # may be lost by any run
+FEW_LOST = 5  # are borne by any run
 
 
 class RunFailed(RuntimeError):
@@ -63,7 +63,7 @@ def find_lost(case, particles, face):
 
 
 def _may_be_lost(case, particles, face):
-    """Mask of the water behind a wall, or lower than the highest bed; as a rule that is little."""
+    """Mask of the water behind a wall, or lower than the highest bed: little of it, as a rule."""
     x, y, z = particles.position.T
     suspect = (x < face) | (x > min(effective_length(case), case.tank.length))
     suspect |= z < max((height for _, height in case.tank.bed), default=0.0)

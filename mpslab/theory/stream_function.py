@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-TERMS = (16, 32, 64, 128)  # of the series: the first of these that is enough
+TERMS = (16, 32, 64, 128)  # of the series: the first that suffice
 SMALLEST = 3e-4  # share of the height that the last term may have, and a fall that rises again
 LONGEST = 100.0  # wavelengths over depth, by linear theory: beyond, crests are solitary waves
 STEPS = 8  # in which the height grows from a linear wave to the highest there is
