@@ -57,7 +57,7 @@ def main(arguments=None):
 def _main(arguments):
     try:
         comm = world()
-    except ValueError as error:  # no ranks that could agree on who says it
+    except ValueError as error:  # before there are ranks that could agree which of them says it
         print(f"mpslab: {error}", file=sys.stderr)
         return BAD_INPUT
     aside = comm.Dup()
@@ -122,7 +122,7 @@ def _prepared(options, arguments, comm, tell):
         return None
     for warning in report.warnings:
         tell(f"Warning: {warning}", file=sys.stderr)
-    # Before the water is settled, which takes its time: nobody else is to have the folder.
+    # Before the water is settled, which takes some time: no other run is to get the folder.
     if options.out:
         folder = take(RunFolder.create, options.out)
     else:
@@ -150,7 +150,7 @@ def _told(options, tell):
 
 
 def _silent(*words, **options):
-    """What the ranks but the first say."""
+    """What all ranks except the first say: nothing."""
 
 
 def _case(options, changes):
@@ -171,7 +171,7 @@ def _case(options, changes):
 
 
 def _ranks(options, comm):
-    """How many ranks are to run, those that there are unless others are asked for."""
+    """How many ranks are to run: those that there are, unless another number is asked for."""
     asked = comm.size if options.ranks is None else options.ranks
     if asked < 1:
         raise ValueError(f"--ranks {asked}: must be a whole number >= 1")
@@ -211,7 +211,8 @@ def _run(simulation, options, tell):
     tell(f"{simulation.case.name}: {sum(sizes):,} particles{ranks}, to t = {until:g} s, "
          f"results in {folder}", flush=True)  # fmt: skip
     if len(sizes) > 1:
-        # Here, for when a process is killed its launcher ends all, and none is left to say it.
+        # Said here: when a process is killed its launcher ends all of them, and none is left to say
+        # it.
         tell(f"Should a process be killed, go on with\n  {_go_on(folder)}", flush=True)
     earlier = _stop_on_signals(simulation)
     try:

@@ -1,5 +1,5 @@
-"""What the commands share: input that is wrong is told in one line, and output that nobody reads
-any more, as of ``... | head -1``, does not stop the work.
+"""What the commands share: bad input is told in one line, and output that nobody reads any more, as
+after ``... | head -1``, does not stop the work.
 """
 
 import argparse
@@ -17,7 +17,7 @@ class Parser(argparse.ArgumentParser):
 
 @contextmanager
 def unbroken():
-    """Print what the block prints as long as it can be, and say nothing from then on."""
+    """Print what the block prints for as long as that is possible, and nothing from then on."""
     with ExitStack() as stack:
         for stream, redirect in ((sys.stdout, redirect_stdout), (sys.stderr, redirect_stderr)):
             if stream is not None:
@@ -51,7 +51,7 @@ class Patient:
             self._silence()
 
     def _silence(self):
-        """What waits to be written goes nowhere, as does all that follows."""
+        """Throw away what waits to be written, and all that follows."""
         with suppress(OSError, ValueError):
             nowhere = os.open(os.devnull, os.O_WRONLY)
             os.dup2(nowhere, self._stream.fileno())

@@ -6,7 +6,7 @@ from scipy.integrate import solve_ivp
 from tanks import make_case
 
 from mpslab.core.motion import Sine
-from mpslab.forcings.frame import strongest
+from mpslab.forcings.frame import motion_of, strongest
 from mpslab.run import settling
 from mpslab.run.preflight import preflight
 from mpslab.simulation import Simulation
@@ -114,3 +114,14 @@ def test_water_that_settles_weighs_as_the_moving_tank_has_it(tmp_path, monkeypat
     assert np.count_nonzero(water) > 50
     gained = after.pressure - before.pressure
     np.testing.assert_allclose(gained[water], -1000.0 * G * moved[water, 0], atol=1e-6)
+
+
+def test_a_long_record_is_looked_at_in_some_rows_and_its_extremes(tmp_path):
+    times = np.linspace(0.0, 100.0, 20_001)
+    place = np.where(times == 50.0, 0.1, 0.02 * np.sin(times))
+    rows = np.column_stack([times, place])
+    np.savetxt(tmp_path / "frame.csv", rows, delimiter=",", header="time [s],x [m]", comments="")
+    motion = motion_of(moving(type="file", file=tmp_path / "frame.csv").frame)
+    moments = motion.moments(100.0)
+    assert len(moments) < 1100 and 50.0 in moments
+    assert max(abs(motion(t, 2)[0]) for t in moments) == abs(motion.curve(times, 2)[:, 0]).max()

@@ -1,4 +1,4 @@
-"""Arrays of gauges along the tank that incident and reflected waves can be told apart with."""
+"""Gauges along the tank by which incident and reflected waves can be told apart."""
 
 import numpy as np
 

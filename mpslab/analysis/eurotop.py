@@ -1,9 +1,10 @@
 """Run-up and overtopping as EurOtop expects them (2018, with the errata of November 2019).
 
 EurOtop: Manual on wave overtopping of sea defences and related structures, second edition. These
-are its mean relations; each of their coefficients is scattered by a standard deviation (the design
-relations of the manual stand one of them off the mean), and the band here takes all of them 1.645
-off, from 5 % to 95 %. Heights and periods are those of the incident waves at the toe.
+are its mean relations. Each of their coefficients has a standard deviation (in the manual's design
+relations they are one standard deviation off the mean); for the band here, from 5 % to 95 %, all of
+them are 1.645 standard deviations off. Heights and periods are those of the incident waves at the
+toe.
 """
 
 from dataclasses import dataclass

@@ -8,13 +8,13 @@ import scipy
 # Columns of this width hold two particles a layer, so that disorder leaves no gap in the water.
 COLUMN = 2.0  # [spacings]
 GAP = 2.0  # [spacings] between particles, as for the gauges
-# A jet has this many particles within the reach of each of its own, spray has not.
+# In a jet each particle has this many others within reach, in spray it has not.
 COHERENT = 6
 REACH = 2.1  # [spacings]
 JET = 8
-# Water hangs together over such distances.
+# Particles as near as this belong to one body of water.
 LINK = 1.5  # [spacings]
-# A front stands between so many columns of higher water behind and lower water ahead.
+# At a front, this many columns behind it hold higher water, and as many ahead lower water.
 BEHIND, AHEAD = 5, 2
 UPRIGHT = 3.5  # [spacings] between the water behind and ahead
 BROAD = 3  # columns over which a jet hangs; a gap in the sheet of a run-up is narrower
@@ -52,8 +52,8 @@ class Crest:
 def find_crest(x, z, speed, spacing):
     """Jet of the water surface if there is one, else where it is steep and fast.
 
-    Slope alone would as soon find the ragged edge of the water at a wall, and speed alone the thin
-    sheet that runs up a slope.
+    Slope alone could just as well find the ragged edge of the water at a wall, and speed alone the
+    thin sheet that runs up a slope.
 
     Parameters
     ----------
@@ -95,10 +95,10 @@ class Front:
 def find_front(x, z, along, spacing):
     """The front of a wave that breaks, in a slice x-z.
 
-    It belongs to the largest body of water that hangs together, spray left out. The water behind
-    stands several spacings above that ahead, over a breadth that the sheet of a run-up has not, and
-    overtakes it, which it does not where a column collapses. It overturns where a broad jet hangs
-    over air.
+    It belongs to the largest body of connected water, without spray. The water behind it stands
+    several spacings higher than the water ahead, over a breadth that the sheet of a run-up does not
+    have; and it overtakes the water ahead, which it does not where a column collapses. It overturns
+    where a broad jet hangs over air.
 
     Parameters
     ----------

@@ -53,8 +53,8 @@ def read(gauges, level, window, period=None):
         Of the still water.
     window : mpslab.analysis.windows.Window
     period : float [s], optional
-        Of regular waves: a whole number of steps, 40 or more, makes a period, and of periods the
-        window, which ends earlier.
+        Of regular waves. A period is then a whole number of steps, 40 or more, and the window a
+        whole number of periods, for which it may end earlier.
 
     Returns
     -------

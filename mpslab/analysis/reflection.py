@@ -19,8 +19,9 @@ from mpslab.theory.waves import wave_number
 
 # Of two gauges 0.05 and 0.45 wavelengths apart, Goda's limits: sin^2(0.1 pi).
 LEAST_SOUND = 0.0955
-# Share of a record at either end over which it fades in and out. Without, what leaks from the peak
-# into other frequencies looks like reflection: Kr = 0.05 of none, in 60 to 100 waves; so, 0.02.
+# Share of a record at either end over which it fades in and out. Without it, what leaks from the
+# peak into other frequencies looks like reflection: in 60 to 100 waves, Kr = 0.05 where there is
+# none; with it 0.02.
 TAPER = 0.05
 PRIMARY = (0.5, 1.5)  # times the peak frequency: where bound waves are few
 WEIGHTS = ("equal", "spacing")

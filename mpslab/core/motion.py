@@ -106,5 +106,10 @@ class Table:
         return self.curve(min(max(time, self.first), self.last), derivative)
 
     def moments(self, end):
-        """The times of the rows: between them acceleration is linear."""
-        return np.append(0.0, np.clip(self.curve.x, 0.0, end))
+        """Times of the rows, for between them acceleration is linear.
+
+        Of very many rows only some, and those with the extremes of place, speed and acceleration.
+        """
+        times = np.clip(self.curve.x, 0.0, end)
+        extremes = [times[np.abs(self.curve(times, k)).argmax(axis=0)] for k in range(3)]
+        return np.concatenate([[0.0], times[:: len(times) // SAMPLES + 1], *extremes])

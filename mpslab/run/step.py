@@ -17,9 +17,9 @@ FURTHEST = 1.0  # spacings that a particle goes in a step
 
 
 def advance(flow, dt):
-    """Advance the flow by one time step dt [s]; returns the solver's report.
+    """Advance a `mpslab.run.flow.Flow` by one time step dt [s]; returns the solver's report.
 
-    Predict with gravity and viscosity, solve for the pressure that keeps the number density,
+    Predict with forcings and viscosity, solve for the pressure that keeps the number density,
     correct with its gradient (equations 1 to 4 of the paper).  One neighbour list serves the
     whole step: viscosity, too, is evaluated where the pressure acts.
     """
