@@ -19,7 +19,8 @@ def test_every_key_is_written_with_its_unit_and_meaning():
     box = {"from": [0.7, 0.0, 0.0], "to": [0.8, 0.1, 0.1]}
     gate = {"x": 0.6, "speed": 1.0}
     force = {"name": "wall", "on": "end_wall"}
-    several = {"obstacle": [box], "gate": [gate], "force": [force]}
+    zone = {"from": 0.5, "to": 1.0, "period": 1.0}
+    several = {"obstacle": [box], "gate": [gate], "force": [force], "sponge": [zone]}
     text = cases.dumps(cases.load_case("dam_break", several))
     for kind in (*TABLES.values(), *LISTS.values()):
         for item in fields(kind):
