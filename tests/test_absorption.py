@@ -209,8 +209,6 @@ def test_every_theory_knows_what_it_absorbs(maker):
         ({"type": "none"}, "wavemaker.absorption = true: must be false"),
         ({"type": "still", "room": 0.1}, "wavemaker.period = 0.0: must be > 0 s"),
         ({"type": "still", "period": 0.7}, "wavemaker.room = 0.0: must be > 0 m"),
-        ({"type": "linear", "height": 0.01, "period": 0.7, "absorption": False, "room": 0.1},
-         "wavemaker.room = 0.1: must be 0"),
         ({"type": "linear", "height": 0.01, "period": 0.7, "room": 9.0}, "the stroke must be <"),
         ({"type": "function", "function": "test_wavemaker_function:Follows", "stroke": 0.01},
          "wavemaker.absorption = true: must be false for an object"),

@@ -7,8 +7,8 @@ from mpslab.theory import absorption
 from mpslab.theory.dispersion import group_velocity
 from validation.comparison import Comparison
 
-PERIODS = 2  # that a harmonic is taken over
-SETTLE = 1.0  # periods that the front of the train, and its end, take to pass
+PERIODS = 2  # that the harmonic of the train is taken over
+SETTLE = 1.0  # periods before its end, in which it fades out
 TAIL = 2.5  # periods after the end of the train in which its slower waves come
 WINDOW = 3.0  # spacings that the piston's gauge reaches
 KH = np.linspace(0.2, 3.0, 57)
@@ -20,7 +20,6 @@ def compare(runs):
     trains = {name: _Train(name, run) for name, run in runs.items() if name != "standing"}
     tuned = [train for train in trains.values() if train.tuned]
     result.measure("reflection", 100.0 * max(train.reflected for train in tuned))
-    result.measure("built_up", 100.0 * max((train.built_up for train in tuned), key=abs))
     others = [train.reflected - train.theory for train in trains.values() if not train.tuned]
     if others:
         result.measure("wrong", 100.0 * max(others, key=abs))
@@ -28,10 +27,10 @@ def compare(runs):
     if "standing" in runs:
         _last(result, runs["standing"])
     columns = ["run", "kh", "at the wall, in the train [mm]", "after it [mm]", "reflected [%]",
-               "by linear theory [%]", "built up [%]"]  # fmt: skip
+               "by linear theory [%]", "over periods"]  # fmt: skip
     result.table("First harmonic at the wall", columns, [
         [train.name, train.kh, 1e3 * train.before, 1e3 * train.after, 100.0 * train.reflected,
-         100.0 * train.theory, 100.0 * train.built_up] for train in trains.values()
+         100.0 * train.theory, train.whole] for train in trains.values()
     ])  # fmt: skip
     return result
 
@@ -84,7 +83,7 @@ def _last(result, run):
 class _Train:
     """A train at the wall: as it comes, and what comes again when it has ended.
 
-    Attributes: before, after [m]; reflected, theory, built_up [-].
+    Attributes: before, after [m]; reflected, theory [-]; whole, periods that `after` is of.
     """
 
     def __init__(self, name, run):
@@ -98,18 +97,16 @@ class _Train:
         maker = run.preflight["wavemaker"]
         length = run.case.tank.length
         way = length / float(group_velocity(np.array([rate]), run.depth, run.gravity)[0])
-        came, ended = way + (1.0 + SETTLE) * self.period, maker["end [s]"] + way
-        first = self._amplitude(came)
-        self.before = self._amplitude(ended - (SETTLE + PERIODS) * self.period)
-        self.built_up = self.before / first - 1.0
-        # What comes back is there from one round trip after the front to one after the end.
-        last = ended + 2.0 * way - PERIODS * self.period
-        self.after = self._amplitude(max(last, ended + SETTLE * self.period))
+        ended = maker["end [s]"] + way
+        self.before = self._amplitude(ended - (SETTLE + PERIODS) * self.period, PERIODS)
+        # The end of what the piston reflected is there one round trip after that of the train.
+        self.whole = int(2.0 * way / self.period - TAIL)
+        self.after = self._amplitude(ended + 2.0 * way - self.whole * self.period, self.whole)
         self.reflected = self.after / self.before
         self.theory = self._theory(rate)
 
-    def _amplitude(self, start):
-        return abs(harmonics(self.time, self.level, self.period, start, PERIODS)[1])
+    def _amplitude(self, start, periods):
+        return abs(harmonics(self.time, self.level, self.period, start, periods)[1])
 
     def _theory(self, rate):
         case, window = self.run.case, WINDOW * self.run.spacing
