@@ -54,7 +54,8 @@ def tables(found):
     lines = ["| pass | ns a pair | its roofline | share |", "|---|---|---|---|"]
     for name, spent, roof in found["passes"]:
         lines.append(f"| {name} | {spent:.2f} | {roof:.2f} | {roof / spent:.2f} |")
-    lines += ["", f"| a step, ms of the processor | particles | iterations | {' | '.join(PHASES)} | all |",
+    lines += ["", "| a step, ms of the processor | particles | iterations "
+              f"| {' | '.join(PHASES)} | all |",
               "|---" * (len(PHASES) + 4) + "|"]  # fmt: skip
     for name, one in found["steps"].items():
         phases = phases_of(one).values()
