@@ -21,6 +21,7 @@ def test_every_key_is_written_with_its_unit_and_meaning():
     force = {"name": "wall", "on": "end_wall"}
     several = {"obstacle": [box], "gate": [gate], "force": [force]}
     text = cases.dumps(cases.load_case("dam_break", several))
+    text += cases.dumps(cases.load_case("overtopping"))
     for kind in (*TABLES.values(), *LISTS.values()):
         for item in fields(kind):
             assert re.search(
