@@ -28,6 +28,7 @@ def test_every_key_is_written_with_its_unit_and_meaning():
                "probe": [{"name": "P", "x": 0.5, "z": 0.1}],
                "tank.bed": [[0.0, 0.0], [1.2, 0.0], [1.61, 0.35]]}  # fmt: skip
     text = cases.dumps(cases.load_case("dam_break", several))
+    text += cases.dumps(cases.load_case("overtopping"))
     for kind in (*TABLES.values(), *LISTS.values()):
         for item in fields(kind):
             assert re.search(

@@ -96,14 +96,14 @@ def test_layer_and_speed_are_those_of_a_stream():
 
 
 def test_counts_are_the_same_on_several_ranks():
-    planes = [{"name": "edge", "x": 0.024}, {"name": "far", "x": 0.027, "drain": True}]
+    planes = [{"name": "edge", "x": 0.0205}, {"name": "far", "x": 0.022, "drain": True}]
     changes = {**FALL, "tank.length": 0.16, "overtopping": planes, "parallel.rebalance_every": 7,
                "tank.bed": [[0.0, 0.0], [0.01, 0.0], [0.16, 0.03]],
-               "runup": [{"name": "edge"}], "time.end": 0.035,
-               "output.gauge_interval": 0.002}  # fmt: skip
+               "runup": [{"name": "edge"}], "time.end": 0.024, "time.start": 8e-4,
+               "output.gauge_interval": 0.0}  # fmt: skip
     one = Simulation(make_case(changes)).run()
     (first, second) = start("shore_series", 2, changes)
-    assert first == second
+    assert repr(first) == repr(second), "NaN is as good as NaN"
     mine = {name: one.table(name).tolist() for name in ("overtopping", "runup")}
     assert repr(first) == repr({name: [list(row) for row in rows] for name, rows in mine.items()})
     assert one.table("overtopping")["far onwards"][-1] > 0.0
