@@ -60,7 +60,8 @@ def draw_side(ax, run, water, limits):
     place, size = water.position[seen][:, [0, 2]], CLOSED * run.spacing
     discs = draw_discs(ax, place, size, array=water.u[seen], cmap=COLOURS, norm=U)
     draw_bed(ax, run)
-    ax.set(xlim=run.moved(limits[0]), ylim=limits[1], aspect="equal", xlabel="x [m]", ylabel="z [m]")
+    ax.set(xlim=run.moved(limits[0]), ylim=limits[1], aspect="equal")
+    ax.set(xlabel="x [m]", ylabel="z [m]")
     ax.set_title(f"{name_of(run)}, t = {water.time:.2f} s", loc="left")
     return discs
 
