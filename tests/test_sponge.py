@@ -8,8 +8,8 @@ from tanks import make_case, particles_at
 from mpslab import Simulation
 from mpslab.forcings import sponge as zones
 from mpslab.run.preflight import preflight
-from mpslab.theory import sponge, stream_function
-from mpslab.theory.dispersion import group_velocity, wave_numbers
+from mpslab.theory import sponge
+from mpslab.theory.dispersion import group_velocity
 
 G, DEPTH = 9.81, 0.1
 
@@ -90,32 +90,6 @@ def test_two_zones_add_up_and_none_is_none():
     assert zones.make(make_case(SMALL)) is None
 
 
-def test_zone_leads_the_water_to_the_wave_that_it_makes():
-    wave = {"from": 0.6, "to": 0.0, "period": 0.7, "target": "wave", "height": 0.02}
-    case = make_case({"tank.length": 1.2, "tank.depth": 0.1, "particles.spacing": 0.01,
-                      "time.end": 3.0, "sponge": [wave]})  # fmt: skip
-    theory = stream_function.solve(0.02, 0.7, 0.1, G)
-    place = np.array([[0.02, 0.0, 0.08]])
-    time = 5.0
-    u, w = theory.velocity(theory.number * (place[:, 0] - theory.celerity * time), place[:, 2])
-    along = np.column_stack([u, 0.0 * u, w])
-    lead = zones.make(case)
-    assert np.abs(along).max() > 0.01
-    assert lead(place, along, time) == pytest.approx(np.zeros((1, 3)), abs=1e-12)
-    assert np.all(lead(place, 0.0 * along, time)[0, [0, 2]] * along[0, [0, 2]] > 0.0)
-
-
-def test_velocity_of_a_low_steep_wave_is_that_of_linear_theory():
-    wave = stream_function.solve(1e-4, 0.7, DEPTH, G)
-    rate = 2.0 * np.pi / 0.7
-    k = float(wave_numbers(np.array([rate]), DEPTH, G)[0])
-    angle, z = np.array([0.3]), np.array([0.06])
-    u, w = wave.velocity(angle, z)
-    a = 0.5e-4 * rate / np.sinh(k * DEPTH)
-    assert u - wave.current == pytest.approx(a * np.cosh(k * z) * np.cos(angle), rel=1e-3)
-    assert w == pytest.approx(a * np.sinh(k * z) * np.sin(angle), rel=1e-3)
-
-
 def test_standing_wave_dies_in_a_zone_and_the_bits_stay_the_same_after_a_restart(tmp_path):
     case = make_case({**SMALL, "gauge": [{"name": "end", "x": [0.0, 0.3]}], "sponge": [ZONE]})
     assert [gauge.name for gauge in case.gauge] == ["end-1", "end-2"]
@@ -144,8 +118,6 @@ def test_preflight_tells_what_a_zone_reflects_and_warns_of_a_short_one():
         ({"to": 0.7}, "sponge.0.to = 0.7: must be from 0 to tank.length"),
         ({"period": 0.0}, "sponge.0.period = 0.0: must be > 0 s"),
         ({"strength": -1.0}, "sponge.0.strength = -1.0: must be a number from 0 to 1000"),
-        ({"target": "wave"}, "sponge.0.height = 0.0: must be > 0 m"),
-        ({"target": "wave", "height": 0.09}, "sponge.0.height = 0.09: must be that of a wave"),
         ({"colour": 1}, "sponge.0.colour = 1: unknown key"),
     ],
 )

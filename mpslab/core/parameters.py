@@ -268,7 +268,7 @@ class Output:
 
 @dataclass(frozen=True, kw_only=True)
 class Sponge:
-    """A zone in which the water is led to rest, or to a wave; strongest at its end."""
+    """A zone in which the water is led to rest; strongest at its end."""
 
     start: float = key("x where it begins", unit="m", low=0, name="from")
     end: float = key("x where it ends, most often at the end wall", unit="m", low=0, name="to")
@@ -280,12 +280,6 @@ class Sponge:
         high=1e3,
     )
     period: float = key("period of the wave; 0 for wavemaker.period", 0.0, unit="s", low=0)
-    target: str = key(
-        "what the water is led to: rest, or a regular wave, which the zone so makes",
-        "rest",
-        choices=("rest", "wave"),
-    )
-    height: float = key("height of that wave", 0.0, unit="m", low=0)
 
     def __post_init__(self):
         check_table(self)

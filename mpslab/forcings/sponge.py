@@ -1,8 +1,8 @@
-"""Zones in which the water is led to rest, or to a wave: [[sponge]].
+"""Zones in which the water is led to rest: [[sponge]].
 
-The force is - r (u - v), with v what the water is led to. r grows from 0, where the zone begins, as
-the square of the way into it; where it ends it is `strength` times the wave's angular frequency. A
-step takes no more than all of u - v, however large r is.
+The force is - r u. r grows from 0, where the zone begins, as the square of the way into it; where
+it ends it is `strength` times the wave's angular frequency. A step takes no more than all of u,
+however large r is.
 """
 
 import math
@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from mpslab.core.keys import require
-from mpslab.theory import sponge, stream_function
+from mpslab.theory import sponge
 
 
 def make(case):
@@ -27,20 +27,11 @@ def make(case):
 
 def _zone(case, one):
     largest, step = strength_of(case, one) * _rate(case, one), case.time.maximum
-    wave = wave_of(case, one) if one.target == "wave" else None
-    bed = case.tank.bed[0][1]
 
     def lead(position, velocity, time):
         share = (position[:, 0] - one.start) / (one.end - one.start)
         rate = -np.expm1(-largest * step * sponge.profile(share)) / step
-        gone = velocity
-        if wave:
-            angle = wave.number * (position[:, 0] - wave.celerity * time)
-            u, w = wave.velocity(angle, np.maximum(position[:, 2] - bed, 0.0))
-            rise = min(time / wave.period, 1.0)
-            rise = rise * rise * (3.0 - 2.0 * rise)
-            gone = velocity - rise * np.column_stack([u, np.zeros(len(u)), w])
-        return -rate[:, np.newaxis] * gone
+        return -rate[:, np.newaxis] * velocity
 
     return lead
 
@@ -52,13 +43,6 @@ def period_of(case, one):
 
 def _rate(case, one):
     return 2.0 * math.pi / period_of(case, one)
-
-
-def wave_of(case, one):
-    """The wave that a zone makes; ValueError if there is none such."""
-    return stream_function.solve(
-        one.height, period_of(case, one), case.tank.paddle_depth, case.fluid.gravity
-    )
 
 
 def strength_of(case, one):
@@ -97,9 +81,3 @@ def check(case):
         require(not dry, f"{where}.from", one.start, "where there is water at rest")
         gravity = case.fluid.gravity
         require(gravity > 0.0, "fluid.gravity", gravity, "> 0 with a [[sponge]]")
-        if one.target == "wave":
-            require(one.height > 0.0, f"{where}.height", one.height, "> 0 m for target = 'wave'")
-            try:
-                wave_of(case, one)
-            except ValueError as error:
-                require(False, f"{where}.height", one.height, f"that of a wave there is: {error}")

@@ -72,7 +72,7 @@ class Preflight:
           a sea), "absorption_period [s]", "reflection_at_peak", "reflection_over_spectrum", "room
           [m]";
         - "sponges": of each zone "from [m]", "to [m]", "period [s]", "wavelengths" that it is
-          long, "strength", "target" and "reflection", by linear theory;
+          long, "strength" and "reflection", by linear theory;
         - "warnings": what the run may suffer from, a line each.
     """
 
@@ -268,7 +268,6 @@ def _sponge(case, one):
             period, case.tank.paddle_depth, case.fluid.gravity
         ),
         "strength": sponge.strength_of(case, one),
-        "target": one.target,
         "reflection": sponge.reflection(case, one),
     }  # fmt: skip
 

@@ -124,7 +124,7 @@ def _sponges(zones):
     for i, zone in enumerate(zones):
         place = f"x = {zone['from [m]']:g} m to {zone['to [m]']:g} m"
         size = f"{zone['wavelengths']:.3g} wavelengths, strength {zone['strength']:.2g}"
-        yield f"sponge.{i}", f"{place}, {size}; to {zone['target']}"
+        yield f"sponge.{i}", f"{place}, {size}"
         period = f"{100 * zone['reflection']:.2g} % of waves of {zone['period [s]']:.4g} s"
         yield "reflects by linear theory", period
 

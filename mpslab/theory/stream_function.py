@@ -18,7 +18,6 @@ STEPS = 8  # in which the height grows from a linear wave to the highest there i
 SHORTEST = 1e-3  # of these steps, in depths
 HIGHEST = 0.97  # of the highest wave: beyond, the series hardly converges
 TOLERANCE = 1e-11
-LARGEST = 300.0  # j k z: water does not come so high
 
 
 def highest(length, depth):
@@ -70,14 +69,6 @@ class Wave:
         if derivative:
             return -dot(np.sin(turned), order * self.surface)
         return dot(np.cos(turned), self.surface)
-
-    def velocity(self, angle, z):
-        """u and w [m/s] at angles k (x - c t) [rad] and heights above the bed [m], (n,) each."""
-        order = np.arange(1, len(self.speed) + 1)
-        high = np.multiply.outer(np.minimum(self.number * z, LARGEST / order[-1]), order)
-        turned = np.multiply.outer(angle, order)
-        u = dot(np.cosh(high) * np.cos(turned), self.speed)
-        return self.current + u, dot(np.sinh(high) * np.sin(turned), self.speed)
 
     def volume(self, angle):
         """Integral of eta by the angle from 0 [m rad], (n,) float64."""

@@ -17,7 +17,6 @@ def compare(runs):
     result = Comparison()
     found = [_Zone(run) for run in runs.values()]
     result.measure("reflection", 100.0 * max(zone.reflected for zone in found))
-    result.measure("behind", 100.0 * max(zone.behind for zone in found))
     _draw(result, found)
     columns = ["kh", "strength", "goes in [mm]", "comes back [mm]", "reflected [%]",
                "by linear theory [%]", "at the wall [%]", "off the fit [mm]"]  # fmt: skip
