@@ -34,4 +34,5 @@ def draw(found):
 def made_on(run):
     """The machine of a run, in words."""
     machine, counts = run.record["machine"], run.record["particles"]
-    return f"{sum(counts.values()):,} particles; {machine['cpu']}, {machine['cores']} cores"
+    cores = "1 core" if machine["cores"] == 1 else f"{machine['cores']} cores"
+    return f"{sum(counts.values()):,} particles; {machine['cpu']}, {cores}"
