@@ -1,6 +1,5 @@
 """Compiled loops that pick, take or change rows of particles, against numpy."""
 
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -51,10 +50,9 @@ def test_squares_are_those_of_the_lengths():
 @pytest.mark.parametrize("places", [[0.3], [2.0, 0.1, 0.15, 3.0], [0.0, 0.2, 0.4]])
 def test_particles_near_places_are_found_once_each(places):
     particles = particles_at(RANDOM.uniform(0.0, 4.0, (N, 3)))
-    flow = SimpleNamespace(particles=particles)
-    found = _near._near(flow, places, 0.11)
+    found = _near.within(particles, places, 0.11)
     far = np.abs(particles.position[:, :1] - np.array(places)).min(axis=1)
-    np.testing.assert_array_equal(found.gid, np.flatnonzero(far < 0.11))
+    np.testing.assert_array_equal(found, np.flatnonzero(far < 0.11))
 
 
 @pytest.mark.parametrize("bed", [[], [[0.0, 0.0], [0.01, 0.0], [0.03, 0.01], [0.04, 0.003]]])
