@@ -19,38 +19,37 @@ def by_pairs(const int[::1] row, const int[::1] other, const float[:, ::1] offse
         for i in range(role.shape[0]):
             end = row[i + 1] if role[i] == FLUID else row[i]
             if soft:
-                total = softly(row[i], end, &other[0], &offset[0, 0], &inverse[0], &pressure[0],
-                               own[i], &loaded[0])
+                total = softly(row[i], end, other, offset, inverse, pressure, own[i], loaded)
             else:
-                total = plainly(row[i], end, &other[0], &offset[0, 0], &pressure[0], own[i],
-                                &loaded[0])
+                total = plainly(row[i], end, other, offset, pressure, own[i], loaded)
             for a in range(3):
                 out[i, a] = factor * lane(total, a)
 
 
-cdef inline four plainly(Py_ssize_t begin, Py_ssize_t end, const int* other, const float* offset,
-                         const double* pressure, double own,
-                         const unsigned char* loaded) noexcept nogil:
+cdef inline four plainly(Py_ssize_t begin, Py_ssize_t end, const int[::1] other,
+                         const float[:, ::1] offset, const double[::1] pressure, double own,
+                         const unsigned char[::1] loaded) noexcept nogil:
     """sum_j (p_j + own) r_ij w/r^2 of a row."""
     cdef four total = nothing()
     cdef Py_ssize_t k, j
     for k in range(begin, end):
         j = other[k]
         if loaded[j]:
-            total = plus(total, pressure[j] + own, pull(offset + 4 * k))
+            total = plus(total, pressure[j] + own, pull(&offset[k, 0]))
     return total
 
 
-cdef inline four softly(Py_ssize_t begin, Py_ssize_t end, const int* other, const float* offset,
-                        const float* inverse, const double* pressure, double own,
-                        const unsigned char* loaded) noexcept nogil:
+cdef inline four softly(Py_ssize_t begin, Py_ssize_t end, const int[::1] other,
+                        const float[:, ::1] offset, const float[::1] inverse,
+                        const double[::1] pressure, double own,
+                        const unsigned char[::1] loaded) noexcept nogil:
     """sum_j (p_j + own) r_ij w/r of a row."""
     cdef four total = nothing()
     cdef Py_ssize_t k, j
     for k in range(begin, end):
         j = other[k]
         if loaded[j]:
-            total = plus(total, (pressure[j] + own) / inverse[k], pull(offset + 4 * k))
+            total = plus(total, (pressure[j] + own) / inverse[k], pull(&offset[k, 0]))
     return total
 
 
