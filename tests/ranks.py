@@ -10,7 +10,7 @@ from pathlib import Path
 
 from mpslab.parallel import launch
 
-TIMEOUT = 600.0  # seconds; a deadlock ends here, and a busy machine is slow
+TIMEOUT = 280.0  # seconds; a deadlock ends here, and a busy machine is slow
 ROOT = Path(__file__).parent.parent
 
 

@@ -23,8 +23,7 @@ SHAPES = {**LONG, "force": [{"name": "mound", "on": "solid-1"}], "solid": [
     {"shape": "cylinder", "center": [0.12, 0.0, 0.012], "radius": 0.007,
      "motion": "sway", "amplitude": 0.01, "period": 0.1},
 ]}  # fmt: skip
-CASES = {"shapes": SHAPES, "sea": SEA, "periodic": PERIODIC, "paper": PAPER, "rest": REST,
-         "marked": MARKED}  # fmt: skip
+CASES = {"sea": SEA, "periodic": PERIODIC, "paper": PAPER, "rest": REST, "marked": MARKED}
 SOLVERS = ["scg", "piccg", "deflated"]
 DRY = {"tank.length": 0.4, "tank.depth": 0.04, "parallel.balance": "static",
        "water": [{"from": [0.0, 0.0, 0.0], "to": [0.06, 0.0, 0.04]}]}  # fmt: skip
@@ -44,7 +43,7 @@ CALLS = {
     3: [
         *EVERYWHERE,
         *(steps(changes, solver) for changes in CASES.values() for solver in SOLVERS),
-        steps(PISTON), steps(STATIC), ["sums"], NESTED,
+        steps(PISTON), steps(STATIC), steps(SHAPES), ["sums"], NESTED,
     ],
     4: [
         *EVERYWHERE,
@@ -79,6 +78,10 @@ def test_steps_have_the_same_bytes_and_iterations_on_1_to_4_ranks(solver):
 def test_every_part_of_a_step_has_the_same_bytes_on_3_ranks(name, solver):
     call = steps(CASES[name], solver)
     assert on(3, call) == alone(*call)
+
+
+def test_solids_of_any_shape_have_the_same_bytes_on_3_ranks():
+    assert on(3, steps(SHAPES)) == alone(*steps(SHAPES))
 
 
 def test_nested_deflation_has_the_same_bytes_and_as_many_iterations_on_3_ranks():
