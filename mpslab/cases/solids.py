@@ -84,7 +84,7 @@ def _check_place(case, where, given, shape):
     there = shape.low[0] < effective_length(case) and shape.high[0] > 0.0
     require(there, key, value, f"in the tank, x from 0 to {tank.length:g} m")
     require(
-        shape.high[2] > min(z for _, z in tank.bed),
+        shape.high[2] > shaped.lowest(tank),
         key,
         value,
         "above the bed, or it has no particles",

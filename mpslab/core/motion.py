@@ -13,6 +13,7 @@ import numpy as np
 from mpslab.later import scipy
 
 SAMPLES = 1001  # of a sine
+AXES = {"sway": 0, "heave": 1, "roll": 2}
 
 
 def displacement(motion, points, start, end):
@@ -41,6 +42,12 @@ def displacement(motion, points, start, end):
 def center_of(motion):
     """Where the axis of a motion is at t = 0, (x, z) [m]."""
     return getattr(motion, "center", (0.0, 0.0))
+
+
+def oscillation(kind, amplitude, period, start, center):
+    """The `Sine` of a kind, "sway", "heave" or "roll"; amplitude [m], of a roll [deg]."""
+    size = np.radians(amplitude) if kind == "roll" else amplitude
+    return Sine(AXES[kind], size, period, start, center)
 
 
 class Sine:

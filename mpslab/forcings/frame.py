@@ -16,9 +16,8 @@ from pathlib import Path
 import numpy as np
 
 from mpslab.core.keys import CaseError, require
-from mpslab.core.motion import Sine, Table
+from mpslab.core.motion import Table, oscillation
 
-AXES = {"sway": 0, "heave": 1, "roll": 2}
 COLUMNS = {"x": 1.0, "z": 1.0, "roll": np.pi / 180.0}  # of a file, in m, m and rad
 
 
@@ -75,8 +74,7 @@ def motion_of(frame):
     rule = f"> 0 for frame.type = {frame.type!r}"
     require(frame.amplitude > 0.0, "frame.amplitude", frame.amplitude, rule)
     require(frame.period > 0.0, "frame.period", frame.period, rule)
-    amplitude = np.radians(frame.amplitude) if frame.type == "roll" else frame.amplitude
-    return Sine(AXES[frame.type], amplitude, frame.period, frame.start, frame.center)
+    return oscillation(frame.type, frame.amplitude, frame.period, frame.start, frame.center)
 
 
 def _read(path):

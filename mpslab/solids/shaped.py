@@ -7,14 +7,13 @@ import numpy as np
 
 from mpslab.core import bed as beds
 from mpslab.core import lattice
-from mpslab.core.motion import Sine
+from mpslab.core.motion import oscillation
 from mpslab.core.particles import FACE, FILLER
 from mpslab.solids import obstacles
 from mpslab.solids.outlines import Circle, Polygon
 from mpslab.solids.shapes import Prism, Sphere
 from mpslab.solids.solid import Solid
 
-AXES = {"sway": 0, "heave": 1, "roll": 2}
 CLEAR = 0.5  # spacings from the water, as it is laid, to a face at the least
 SAMPLES = {2: 300, 3: 60}  # along an axis, of the box around a solid
 
@@ -78,10 +77,8 @@ class Shaped(Solid):
     def particles(self, case):
         spacing = case.particles.spacing
         position, normal, layer = self.shape.layers(spacing, case.particles.layers)
-        keep = _in_tank(case, position)
-        keep &= position[:, 2] > beds.elevation(case.tank.bed, position[:, 0])
+        keep = _room(case, position)
         keep &= lattice.clear(case, position[:, [0, 2]], self.tank.floor[0])
-        keep &= ~obstacles.holds(case, position) if case.obstacle else True
         for other in shapes(case)[: self.number]:
             keep &= other.distance(position) > 0.0
         position, normal, layer = position[keep], normal[keep], layer[keep]
@@ -101,15 +98,14 @@ def motion_of(given):
     """The prescribed motion of a table ``[[solid]]``, None for one at rest."""
     if given.motion == "none":
         return None
-    amplitude = np.radians(given.amplitude) if given.motion == "roll" else given.amplitude
-    return Sine(AXES[given.motion], amplitude, given.period, given.start, given.about)
+    return oscillation(given.motion, given.amplitude, given.period, given.start, given.about)
 
 
-def holds(case, position, margin=0.0):
-    """Whether places (n, 3) [m] are so far inside a solid [m], (n,) bool."""
+def holds(case, position):
+    """Whether places (n, 3) [m] are inside a solid, (n,) bool."""
     found = np.zeros(len(position), bool)
     for shape in shapes(case):
-        found |= shape.distance(position) < -margin
+        found |= shape.distance(position) < 0.0
     return found
 
 
@@ -242,20 +238,18 @@ def _share(case, shape, start, end, depth):
 
 
 def _open(case, place):
-    """Whether places (n, 3) [m] are in the tank and in no obstacle or solid at rest."""
-    found = _in_tank(case, place)
-    found &= place[:, 2] > beds.elevation(case.tank.bed, place[:, 0])
-    found &= ~obstacles.holds(case, place) if case.obstacle else True
+    """Whether places (n, 3) [m] are in the tank and in no obstacle or solid at rest, (n,) bool."""
+    found = _room(case, place)
     for shape, given in zip(shapes(case), case.solid, strict=True):
         if given.motion == "none":
             found &= shape.distance(place) > 0.0
     return found
 
 
-def _in_tank(case, place):
-    """Whether places (n, 3) [m] are between the walls of the tank, (n,) bool."""
-    x, y = place[:, 0], place[:, 1]
+def _room(case, place):
+    """Whether places (n, 3) [m] are between walls, above the bed and in no obstacle, (n,) bool."""
+    x, y, z = place.T
     found = (x > 0.0) & (x < lattice.effective_length(case))
     if case.dim == 3 and not case.tank.periodic:
         found &= (y > 0.0) & (y < lattice.rows_across(case) * case.particles.spacing)
-    return found
+    return found & (z > beds.elevation(case.tank.bed, x)) & ~obstacles.holds(case, place)
