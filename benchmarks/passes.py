@@ -22,7 +22,7 @@ COPY = 2**24  # doubles, 128 MB: more than any cache
 # What a pass has to read and write, a pair and a particle.
 BYTES = {
     "measure": (24, 273),
-    "viscosity": (8, 80),
+    "viscosity": (24, 88),
     "adjoint": (20, 152),
     "gradient": (20, 168),
     "matrix": (16, 24),
@@ -78,10 +78,10 @@ class Plain:
     def viscosity(self):
         r, g = self.geometry()
         u, stencil, i, j = self.flow.particles.velocity, self.flow.stencil, self.i, self.j
-        w = g * np.einsum("ka,ka->k", r, r) * self.water[j]
-        nu = self.flow.case.fluid.viscosity
-        factor = 2.0 * nu * stencil.dim / (stencil.lambda0 * stencil.n0)
-        return factor * np.stack([self.sum(w * (u[j, a] - u[i, a])) for a in range(3)], axis=1)
+        w = g * np.einsum("ka,ka->k", u[j] - u[i], r) * self.water[j]
+        nu, moment = self.flow.case.fluid.viscosity, stencil.lambda0 * stencil.n0
+        factor = 2.0 * nu * stencil.dim * (stencil.dim + 2) / moment
+        return factor * np.stack([self.sum(w * r[:, a]) for a in range(3)], axis=1)
 
     def adjoint(self):
         r, g = self.geometry()

@@ -76,26 +76,30 @@ def test_strain_rate_sees_the_wall_only_without_slip():
 
 @pytest.mark.parametrize("dim", [2, 3])
 def test_eddy_viscosity_of_uniform_shear_acts_as_a_viscosity_of_its_size(dim):
-    """u = R z + e z^2, whose |S| is R + 2 e z: the force is d/dz of C^2 |S|^2."""
-    position = lattice(dim, 6)
+    """u = R z + e z^2, whose |S| is R + 2 e z: the force is d/dz of C^2 |S|^2, twice that of the
+    viscosity C^2 R."""
+    position, bend = lattice(dim, 6), 1e-4
     velocity = np.zeros_like(position)
-    velocity[:, 0] = RATE * position[:, 2] + 1e-4 * position[:, 2] ** 2
-    found = acceleration(position, velocity, dim)[inside(position, 1)]
-    exact = CONSTANT**2 * 2e-4 * 2.0 * RATE  # at z = 0
-    np.testing.assert_allclose(found[:, 0], exact, rtol=1e-3)
-    np.testing.assert_allclose(found[:, 1:], 0.0, atol=1e-12)
+    velocity[:, 0] = RATE * position[:, 2] + bend * position[:, 2] ** 2
+    middle = inside(position, 1)
+    found = acceleration(position, velocity, dim)[middle]
+    scheme, near = Scheme(), near_of(particles_at(position), dim)
+    near.particles.velocity[:] = velocity
+    constant = friction.acceleration(
+        near, near.stencil, None, Fluid(viscosity=CONSTANT**2 * RATE), scheme
+    )[middle]
+    np.testing.assert_allclose(found[:, 0], 2.0 * constant[:, 0], rtol=1e-3)
+    np.testing.assert_allclose(found[:, 1:], 0.0, atol=1e-7)
 
 
 def test_molecular_and_eddy_viscosity_add_up():
     position = cloud(2, 400, 4, jitter=0.2)
     velocity = np.random.default_rng(5).normal(size=position.shape) * [1, 0, 1]
     both, eddy = (acceleration(position, velocity, 2, nu) for nu in (0.3, 0.0))
-    near, out = near_of(particles_at(position), 2), np.zeros_like(position)
-    viscosity.viscous_acceleration(
-        near.row, near.solid, near.other, near.inverse, near.particles.role, near.stencil,
-        padded(velocity), 0.3, True, out,
-    )  # fmt: skip
-    np.testing.assert_allclose(both, eddy + out, atol=1e-12)
+    near = near_of(particles_at(position), 2)
+    near.particles.velocity[:] = velocity
+    alone = friction.acceleration(near, near.stencil, None, Fluid(viscosity=0.3), Scheme())
+    np.testing.assert_allclose(both, eddy + alone, atol=1e-12)
 
 
 @pytest.mark.parametrize("dim", [2, 3])

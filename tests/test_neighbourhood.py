@@ -152,13 +152,17 @@ def test_viscous_acceleration_is_the_sum_of_its_formula(dim, slip):
     near, pairs = setting(dim)
     u, stencil = near.particles.velocity, make_stencil(dim, 1.0, 2.6)
     w = np.maximum(2.6 / pairs.distance - 1.0, 0.0) * (pairs.water if slip else 1.0)
-    factor = 0.3 * 2.0 * dim / (stencil.lambda0 * stencil.n0)
-    expected = factor * np.einsum("ij,ija->ia", w, u[None] - u[:, None])
+    nu = np.random.default_rng(4).uniform(0.1, 0.5, len(u))
+    both = np.where(pairs.water, nu[:, None] + nu, 2.0 * nu[:, None])
+    factor = dim * (dim + 2) / (stencil.lambda0 * stencil.n0)
+    e = pairs.r / pairs.distance[:, :, None]
+    rate = np.einsum("ija,ija->ij", u[None] - u[:, None], e)
+    expected = factor * np.einsum("ij,ija->ia", w * both * rate, e)
     expected[~pairs.water] = 0.0
     out = np.zeros_like(u)
-    viscosity.viscous_acceleration(
-        near.row, near.solid, near.other, near.inverse, near.particles.role, stencil, padded(u),
-        0.3, slip, out,
+    viscosity.acceleration(
+        near.row, near.solid, near.other, near.offset, near.inverse, near.particles.role, stencil,
+        padded(u), nu, slip, out,
     )  # fmt: skip
     assert_close(out, expected)
 

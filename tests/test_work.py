@@ -34,12 +34,11 @@ PARTICLES = {
 # and what else a case asks for: eddies, or 13 gauges.
 ASKED = {
     "dam_break": {
-        "viscosity.strain_rate": 1, "viscosity.viscous_acceleration": 1,
-        "viscosity.eddy_acceleration": 1, "vectors.pad": 4, "column.around": 4,
-        "column.spread": 1, "column.top": 1,
+        "viscosity.strain_rate": 1, "viscosity.acceleration": 1, "vectors.pad": 4,
+        "column.around": 4, "column.spread": 1, "column.top": 1,
     },
     "regular_waves": {
-        "viscosity.viscous_acceleration": 1, "column.around": 13, "column.spread": 13,
+        "viscosity.acceleration": 1, "column.around": 13, "column.spread": 13,
         "column.top": 13,
     },
 }  # fmt: skip

@@ -204,7 +204,7 @@ class Time:
         above=0,
         high=10,
     )
-    viscous: float = key("dt <= viscous spacing^2 / viscosity", 0.2, above=0, high=1)
+    viscous: float = key("dt <= viscous spacing^2 / viscosity", 0.1, above=0, high=1)
     growth: float = key("dt <= growth last dt", 1.1, above=1, high=10)
     maximum: float = key(
         "largest dt; 0 for 0.2 spacing / sqrt(gravity depth), half with projection 'predicted'; "

@@ -1,35 +1,46 @@
-"""Viscous acceleration.
+"""Viscous acceleration: the divergence of the stress 2 nu D, pair by pair.
 
 row, solid, other, offset, inverse : pairs, see mpslab.kernels.measure
 velocity : (n, 4) [m/s], the fourth number 0
 """
 from libc.math cimport sqrt
 
-from mpslab.kernels.lanes cimport four, lane, load, minus, nothing, plus
-from mpslab.kernels.pair cimport FLUID, pull, turned, weight
+from mpslab.kernels.lanes cimport four, lane, load, minus, nothing, plus, widened
+from mpslab.kernels.pair cimport FLUID, along, pull, turned, weight
 
 
-def viscous_acceleration(const int[::1] row, const int[::1] solid, const int[::1] other,
-                         const float[::1] inverse, const signed char[::1] role, stencil,
-                         const double[:, ::1] velocity, double viscosity, bint slip,
-                         double[:, ::1] out):
-    """nu <lap u>_i = nu (2 Ds/(lambda0 n0)) sum_j (u_j - u_i) w of the fluid particles [m/s2].
+cdef inline four stretched(four total, double factor, double inverse, const double* there,
+                           const double* here, const float* offset) noexcept nogil:
+    """total + factor ((u_j - u_i) . e) e, e = r_ij/r: what a pair that is stretched gives."""
+    factor *= along(there, here, offset) * inverse * inverse
+    return plus(total, factor, widened(offset))
 
-    Equation (1) of the paper, with the Laplacian of Koshizuka & Oka (1996).  With `slip` the
-    walls are left out of the sum: a wall without friction.
+
+def acceleration(const int[::1] row, const int[::1] solid, const int[::1] other,
+                 const float[:, ::1] offset, const float[::1] inverse,
+                 const signed char[::1] role, stencil, const double[:, ::1] velocity,
+                 const double[::1] viscosity, bint slip, double[:, ::1] out):
+    """(2 Ds (Ds + 2)/(lambda0 n0)) sum_j (nu_i + nu_j)/2 w ((u_j - u_i) . e) e of the water [m/s2].
+
+    e = r_ij/r.  With `slip` the walls are left out of the sum: they have no friction.
+
+    viscosity : (n,) nu of each particle [m2/s]; a solid takes that of the water particle
     """
-    cdef double radius = stencil.radius
-    cdef double factor = viscosity * 2.0 * stencil.dim / (stencil.lambda0 * stencil.n0)
-    cdef four here, total
-    cdef Py_ssize_t i, k, a
+    cdef double radius = stencil.radius, moment = stencil.lambda0 * stencil.n0
+    cdef double factor = stencil.dim * (stencil.dim + 2) / moment
+    cdef double both
+    cdef four total
+    cdef Py_ssize_t i, j, k, a
     with nogil:
         for i in range(solid.shape[0]):
             if role[i] != FLUID:
                 continue
-            here, total = load(&velocity[i, 0]), nothing()
+            total = nothing()
             for k in range(row[i], solid[i] if slip else row[i + 1]):
-                total = plus(total, weight(inverse[k], radius),
-                             minus(load(&velocity[other[k], 0]), here))
+                j = other[k]
+                both = viscosity[i] + viscosity[j if k < solid[i] else i]
+                total = stretched(total, both * weight(inverse[k], radius), inverse[k],
+                                  &velocity[j, 0], &velocity[i, 0], &offset[k, 0])
             for a in range(3):
                 out[i, a] = factor * lane(total, a)
 
@@ -41,7 +52,7 @@ def strain_rate(const int[::1] row, const int[::1] solid, const int[::1] other,
     """|S| = sqrt(2 S:S) of the water, S the symmetric part of (Ds/n0) sum_j u_ij (x) C_i r_ij w/r^2.
 
     In [1/s]; 0 for solids.  Exact for linear velocities where the neighbours are complete.  With
-    `slip` the walls are left out, as in `viscous_acceleration`, and next to one |S| is about half.
+    `slip` the walls are left out, as in `acceleration`, and next to one |S| is about half.
 
     c : (n, 3, 4) correction matrices over all neighbours; see mpslab.kernels.moments
     """
@@ -64,30 +75,3 @@ def strain_rate(const int[::1] row, const int[::1] solid, const int[::1] other,
             xy, xz, yz = lane(x, 1) + lane(y, 0), lane(x, 2) + lane(z, 0), lane(y, 2) + lane(z, 1)
             out[i] = factor * sqrt(2.0 * (xx * xx + yy * yy + zz * zz)
                                    + xy * xy + xz * xz + yz * yz)
-
-
-def eddy_acceleration(const int[::1] row, const int[::1] solid, const int[::1] other,
-                      const float[::1] inverse, const signed char[::1] role, stencil,
-                      const double[:, ::1] velocity, const double[::1] eddy, bint slip,
-                      double[:, ::1] out):
-    """Add (2 Ds/(lambda0 n0)) sum_j (e_i + e_j)/2 (u_j - u_i) w of the fluid particles [m/s2].
-
-    eddy : (n,) viscosity e of each particle; solids take that of their neighbour [m2/s]
-    """
-    cdef double radius = stencil.radius
-    cdef double factor = stencil.dim / (stencil.lambda0 * stencil.n0)
-    cdef four here, total
-    cdef Py_ssize_t i, k, a
-    with nogil:
-        for i in range(solid.shape[0]):
-            if role[i] != FLUID:
-                continue
-            here, total = load(&velocity[i, 0]), nothing()
-            for k in range(row[i], solid[i]):
-                total = plus(total, weight(inverse[k], radius) * (eddy[i] + eddy[other[k]]),
-                             minus(load(&velocity[other[k], 0]), here))
-            for k in range(solid[i], solid[i] if slip else row[i + 1]):
-                total = plus(total, weight(inverse[k], radius) * 2.0 * eddy[i],
-                             minus(load(&velocity[other[k], 0]), here))
-            for a in range(3):
-                out[i, a] += factor * lane(total, a)

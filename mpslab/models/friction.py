@@ -29,7 +29,12 @@ def eddies(near, scheme, refresh):
 
 
 def acceleration(near, laplacian_stencil, eddy, fluid, scheme):
-    """nu <lap u> and div(nu_e grad u) of the fluid particles, (n, 3) [m/s2].
+    """div(2 (nu + nu_e) D) of the fluid particles, D their rate of strain, (n, 3) [m/s2].
+
+    Each pair resists its stretching (Monaghan & Gingold 1983). Where the water is incompressible
+    this is the nu <lap u> of equation (1) of the paper; but it has no stress at a free surface,
+    where the Laplacian of MPS has du/dn = 0 and so takes half of the energy that a wave should
+    lose (Colagrossi, Antuono, Souto-Iglesias & Le Touze 2011).
 
     Parameters
     ----------
@@ -39,11 +44,12 @@ def acceleration(near, laplacian_stencil, eddy, fluid, scheme):
         From `eddies` [m2/s].
     fluid, scheme : tables of the case
     """
-    particles, slip = near.particles, scheme.wall_slip
-    out, velocity = np.zeros_like(particles.velocity), padded(particles.velocity)
-    place = near.row, near.solid, near.other, near.inverse, particles.role, laplacian_stencil
-    if fluid.viscosity > 0.0:
-        kernels.viscous_acceleration(*place, velocity, fluid.viscosity, slip, out)
+    particles = near.particles
+    out, viscosity = np.zeros_like(particles.velocity), np.full(len(particles), fluid.viscosity)
     if eddy is not None:
-        kernels.eddy_acceleration(*place, velocity, eddy, slip, out)
+        viscosity += eddy
+    kernels.acceleration(
+        near.row, near.solid, near.other, near.offset, near.inverse, particles.role,
+        laplacian_stencil, padded(particles.velocity), viscosity, scheme.wall_slip, out,
+    )  # fmt: skip
     return out
