@@ -119,9 +119,10 @@ class Passes:
 
     def viscosity(self):
         flow, scheme = self.flow, self.flow.case.scheme
-        eddy = friction.eddies(self.near, scheme, id)
+        seen = friction.velocity_seen(self.near, scheme, id)
+        eddy = friction.eddies(self.near, seen, scheme, id)
         return friction.acceleration(
-            self.near, flow.laplacian_stencil, eddy, flow.case.fluid, scheme
+            self.near, flow.laplacian_stencil, seen, eddy, flow.case.fluid, scheme
         )
 
     def adjoint(self):

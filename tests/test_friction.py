@@ -36,9 +36,13 @@ def acceleration(position, velocity, dim, nu=0.0, slip=True, role=FLUID):
     particles = particles_at(position, role)
     particles.velocity[:] = velocity
     near = near_of(particles, dim)
-    scheme = Scheme(smagorinsky=CONSTANT, wall_slip=slip)
-    eddy = friction.eddies(near, scheme, lambda _: None)
-    return friction.acceleration(near, near.stencil, eddy, Fluid(viscosity=nu), scheme)
+    return friction_of(near, Fluid(viscosity=nu), Scheme(smagorinsky=CONSTANT, wall_slip=slip))
+
+
+def friction_of(near, fluid, scheme):
+    seen = friction.velocity_seen(near, scheme, lambda _: None)
+    eddy = friction.eddies(near, seen, scheme, lambda _: None)
+    return friction.acceleration(near, near.stencil, seen, eddy, fluid, scheme)
 
 
 @pytest.mark.parametrize("dim", [2, 3])
@@ -83,11 +87,9 @@ def test_eddy_viscosity_of_uniform_shear_acts_as_a_viscosity_of_its_size(dim):
     velocity[:, 0] = RATE * position[:, 2] + bend * position[:, 2] ** 2
     middle = inside(position, 1)
     found = acceleration(position, velocity, dim)[middle]
-    scheme, near = Scheme(), near_of(particles_at(position), dim)
+    near = near_of(particles_at(position), dim)
     near.particles.velocity[:] = velocity
-    constant = friction.acceleration(
-        near, near.stencil, None, Fluid(viscosity=CONSTANT**2 * RATE), scheme
-    )[middle]
+    constant = friction_of(near, Fluid(viscosity=CONSTANT**2 * RATE), Scheme())[middle]
     np.testing.assert_allclose(found[:, 0], 2.0 * constant[:, 0], rtol=1e-3)
     np.testing.assert_allclose(found[:, 1:], 0.0, atol=1e-7)
 
@@ -98,7 +100,7 @@ def test_molecular_and_eddy_viscosity_add_up():
     both, eddy = (acceleration(position, velocity, 2, nu) for nu in (0.3, 0.0))
     near = near_of(particles_at(position), 2)
     near.particles.velocity[:] = velocity
-    alone = friction.acceleration(near, near.stencil, None, Fluid(viscosity=0.3), Scheme())
+    alone = friction_of(near, Fluid(viscosity=0.3), Scheme())
     np.testing.assert_allclose(both, eddy + alone, atol=1e-12)
 
 
@@ -118,6 +120,36 @@ def test_walls_brake_the_water_by_its_own_eddies():
     rough = acceleration(position, velocity, 2, slip=False, role=role)
     assert np.all(rough[at_wall, 0] < 0.0)
     assert np.all(rough[role == FACE] == 0.0)
+
+
+def test_a_wall_with_friction_is_at_rest_at_its_face():
+    """u = z over a wall whose face is at z = 0 has no viscous force; solids that stood for the
+    water half a spacing behind it with their own velocity would leave a large one."""
+    position = lattice(2, 6) + [0.0, 0.0, 0.5]
+    role = np.where(position[:, 2] < 0.0, FACE, FLUID)
+    near = near_of(particles_at(position, role), 2)
+    near.particles.velocity[:, 0] = np.maximum(position[:, 2], 0.0)
+    scheme, fluid = Scheme(wall_slip=False), Fluid(viscosity=1.0)
+    lowest = (position[:, 2] == 0.5) & (np.abs(position[:, 0]) < 2.0)
+    force = friction_of(near, fluid, scheme)[lowest, 0]
+    still = padded(near.particles.velocity)
+    bare = friction.acceleration(near, near.stencil, still, None, fluid, scheme)[lowest, 0]
+    assert np.all(bare > 0.3)
+    assert np.all(np.abs(force) < 0.25 * bare)
+
+
+def test_velocity_of_a_wall_is_mirrored_in_that_of_the_water():
+    position = cloud(3, 8**3, 3, jitter=0.2)
+    role = np.where(position[:, 2] < 0.0, FACE, FLUID)
+    particles = particles_at(position, role)
+    particles.velocity[:] = np.random.default_rng(4).normal(size=position.shape)
+    seen = friction.velocity_seen(near_of(particles, 3), Scheme(wall_slip=False), lambda _: None)
+    apart = np.linalg.norm(position[:, None] - position, axis=2) + 1e9 * np.eye(len(position))
+    w = np.maximum(2.1 / apart - 1.0, 0.0) * (role == FLUID)
+    mean = w @ particles.velocity / np.maximum(w.sum(axis=1), 1e-30)[:, None]
+    mirrored = (role == FACE) & (w.sum(axis=1) > 0.0)
+    expected = np.where(mirrored[:, None], 2.0 * particles.velocity - mean, particles.velocity)
+    np.testing.assert_allclose(seen[:, :3], expected, atol=1e-5)
 
 
 STREAM = {

@@ -16,6 +16,37 @@ cdef inline four stretched(four total, double factor, double inverse, const doub
     return plus(total, factor, widened(offset))
 
 
+def mirror(const int[::1] row, const int[::1] solid, const int[::1] other,
+           const float[::1] inverse, const signed char[::1] role, stencil,
+           const double[:, ::1] velocity, double[::1] total, double[:, ::1] out):
+    """2 u_w less the mean of the water near it, sum_f w u_f / sum_f w, for each solid w [m/s].
+
+    With it the velocity at the face of a wall is that of the wall (Adami, Hu & Adams 2012).  Water
+    keeps its velocity, and so do solids without any near.
+
+    total : (n,) scratch
+    """
+    cdef double radius = stencil.radius
+    cdef double w
+    cdef Py_ssize_t i, j, k, a
+    with nogil:
+        for i in range(solid.shape[0]):
+            total[i] = 0.0
+            for a in range(4):
+                out[i, a] = velocity[i, a] if role[i] == FLUID else 0.0
+        for i in range(solid.shape[0]):
+            for k in range(solid[i], row[i + 1] if role[i] == FLUID else solid[i]):
+                j, w = other[k], weight(inverse[k], radius)
+                total[j] += w
+                for a in range(3):
+                    out[j, a] += w * velocity[i, a]
+        for i in range(solid.shape[0]):
+            if role[i] != FLUID:
+                for a in range(3):
+                    out[i, a] = (2.0 * velocity[i, a] - out[i, a] / total[i] if total[i] > 0.0
+                                 else velocity[i, a])
+
+
 def acceleration(const int[::1] row, const int[::1] solid, const int[::1] other,
                  const float[:, ::1] offset, const float[::1] inverse,
                  const signed char[::1] role, stencil, const double[:, ::1] velocity,

@@ -109,10 +109,13 @@ def _add_viscosity(flow, dt):
     fluid, scheme = flow.case.fluid, flow.case.scheme
     if fluid.viscosity == scheme.smagorinsky == 0.0:
         return
-    eddy = friction.eddies(flow.near, scheme, flow.domain.refresh)
+    seen = friction.velocity_seen(flow.near, scheme, flow.domain.refresh)
+    eddy = friction.eddies(flow.near, seen, scheme, flow.domain.refresh)
 
     def change(near):
-        return dt * friction.acceleration(near, flow.laplacian_stencil, eddy, fluid, scheme)
+        return dt * friction.acceleration(
+            near, flow.laplacian_stencil, seen, eddy, fluid, scheme
+        )
 
     if scheme.wall_slip:
         flow.particles.velocity += change(flow.near)  # no solid has a part in it
