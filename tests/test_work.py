@@ -31,11 +31,11 @@ PARTICLES = {
     "density.thin_or_lopsided": 1, "density.beside": 1, "repulsion.moved": 2,
     "repulsion.overlap": 2, "tank.outside": 1, "column.within": 2, "coarse.spread": 1,
 }  # fmt: skip
-# and what else a case asks for: eddies and walls with friction, or 13 gauges.
+# and what else a case asks for: eddies, or 13 gauges.
 ASKED = {
     "dam_break": {
-        "viscosity.mirror": 1, "viscosity.strain_rate": 1, "viscosity.acceleration": 1,
-        "column.around": 4, "column.spread": 1, "column.top": 1,
+        "viscosity.strain_rate": 1, "viscosity.acceleration": 1, "column.around": 4,
+        "column.spread": 1, "column.top": 1,
     },
     "regular_waves": {
         "viscosity.acceleration": 1, "column.around": 13, "column.spread": 13,
@@ -47,7 +47,7 @@ AT_MOST = {
     "sparse.multiply": (2, 1), "coarse.gather": (2, 1), "coarse.substitute": (2, 1),
     "coarse.take_off": (1, 1), "sparse.slab_dots": (4, 3), "sparse.dot": (0, 1),
     "repulsion.close": (2, 0),
-    "collect": (9, 2), "refresh": (6, 0), "share_out": (1, 0), "from_all": (12, 0),
+    "collect": (9, 2), "refresh": (5, 0), "share_out": (1, 0), "from_all": (12, 0),
 }  # fmt: skip
 NEIGHBOURS = {"dam_break": 40, "regular_waves": 15}  # a row has at most, in the mean
 BYTES = {"dam_break": 1000, "regular_waves": 1200}  # a particle takes at most within a step

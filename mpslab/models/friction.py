@@ -9,7 +9,9 @@ from mpslab.kernels import viscosity as kernels
 def velocity_seen(near, scheme, refresh):
     """Velocities as friction sees them, (n, 4) [m/s], the fourth number 0.
 
-    Where walls have friction, a solid has the velocity of the water mirrored in its own.
+    Where walls have friction, a solid has the velocity of the water mirrored in its own. Not with
+    eddies: there the water's profile at a wall is finer than the particles, and the friction of a
+    velocity that falls to nothing within half a spacing is far too large (docs/recipe.md).
 
     Parameters
     ----------
@@ -19,7 +21,7 @@ def velocity_seen(near, scheme, refresh):
         Brings the ghosts' rows of an array up to date.
     """
     velocity = padded(near.particles.velocity)
-    if scheme.wall_slip:
+    if scheme.wall_slip or scheme.smagorinsky > 0.0:
         return velocity
     out = np.empty_like(velocity)
     kernels.mirror(
