@@ -153,11 +153,12 @@ def test_viscous_acceleration_is_the_sum_of_its_formula(dim, slip):
     u, stencil = near.particles.velocity, make_stencil(dim, 1.0, 2.6)
     w = np.maximum(2.6 / pairs.distance - 1.0, 0.0) * (pairs.water if slip else 1.0)
     nu = np.random.default_rng(4).uniform(0.1, 0.5, len(u))
-    both = np.where(pairs.water, nu[:, None] + nu, 2.0 * nu[:, None])
     factor = dim * (dim + 2) / (stencil.lambda0 * stencil.n0)
-    e = pairs.r / pairs.distance[:, :, None]
-    rate = np.einsum("ija,ija->ij", u[None] - u[:, None], e)
-    expected = factor * np.einsum("ij,ija->ia", w * both * rate, e)
+    e, apart = pairs.r / pairs.distance[:, :, None], u[None] - u[:, None]
+    rate = np.einsum("ija,ija->ij", apart, e)
+    water = np.einsum("ij,ija->ia", w * (nu[:, None] + nu) * rate * pairs.water, e)
+    solids = 2.0 / (dim + 2) * np.einsum("ij,ija->ia", w * nu[:, None] * ~pairs.water, apart)
+    expected = factor * (water + solids)
     expected[~pairs.water] = 0.0
     out = np.zeros_like(u)
     viscosity.acceleration(

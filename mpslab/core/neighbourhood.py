@@ -36,7 +36,8 @@ class Neighbourhood:
     other : (m,) int32
         The neighbour.
     offset : (m + LANES, 4) float32
-        r_ij [m] and w/r^2 [1/m2]; what is behind the m pairs means nothing.
+        r_ij [m] and w/r^2 [1/m2]; what is behind the m pairs means nothing. Of water to smooth
+        solids only the part of r_ij along their normal.
     inverse : (m + LANES,) float32
         1/r [1/m].
     position : (n, 4) float64 [m]
@@ -53,7 +54,7 @@ class Neighbourhood:
         self.offset, self.inverse = np.empty((0, 4), np.float32), np.empty(0, np.float32)
         self._behind = np.empty(0, np.int32)
 
-    def measure(self, particles, neighbors, loaded=None):
+    def measure(self, particles, neighbors, loaded=None, smooth=False):
         """Take the geometry of the pairs of a list, with the particles where they are.
 
         The list is taken over: in its rows water is put before solids.
@@ -64,6 +65,8 @@ class Neighbourhood:
         neighbors : NeighborList
         loaded : (n,) bool, optional
             Those that act with a pressure, unless they are water and the faces of solids.
+        smooth : bool
+            Whether solids are smooth: water feels nothing of them along their face.
         """
         n, pairs = len(particles), len(neighbors.indices)
         self.particles, self.row = particles, neighbors.indptr
@@ -74,7 +77,7 @@ class Neighbourhood:
         self.position = padded(particles.position)
         self.first, self.second = np.empty((n, 4)), np.empty((n, 3, 4))
         measure.measure(
-            self.position, particles.role, self.row, self.other, self.stencil, self.solid,
+            self.position, particles.role, self.row, self.other, self.stencil, smooth, self.solid,
             self._behind, self.offset, self.inverse, self.first, self.second,
         )  # fmt: skip
         self._correction = self._lean = self._close = None

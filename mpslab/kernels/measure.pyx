@@ -1,23 +1,27 @@
 """The geometry of all pairs of a neighbour list, kept for whatever a step sums over them."""
-from libc.math cimport sqrtf
+from libc.math cimport sqrt, sqrtf
 
 from mpslab.kernels.lanes cimport (
     ended, four, lane, load, minus, nearest, nothing, plus, store, store_rounded, times, widened,
 )
 from mpslab.kernels.pair cimport FLUID, LANES
 
+# Of a normal: its length, of what it would be if all solids lay in one direction.
+cdef double LEAST_LEAN = 0.5
 # Rows of so many pairs are taken through all three parts at a time, and stay in the cache.
 cdef enum:
     PAIRS = 1024
 
 
 def measure(const double[:, ::1] position, const signed char[::1] role, const int[::1] row,
-            int[::1] other, stencil, int[::1] solid, int[::1] behind, float[:, ::1] offset,
-            float[::1] inverse, double[:, ::1] first, double[:, :, ::1] second):
+            int[::1] other, stencil, bint smooth, int[::1] solid, int[::1] behind,
+            float[:, ::1] offset, float[::1] inverse, double[:, ::1] first,
+            double[:, :, ::1] second):
     """Geometry of each pair and its sums over the neighbours of each particle.
 
     position : (n, 4) [m], the fourth number 0
     row, other : of the neighbour list; in each row of `other` water is put before solids
+    smooth : whether r_ij from water to solids is only its part along their normal, see `flatten`
     solid : (n,) out, first solid neighbour in each row of `other`
     behind : scratch, as long as the longest row
     offset : (m + LANES, 4) out, r_ij [m] and w/r^2 [1/m2]; the rounded difference of two doubles,
@@ -38,6 +42,8 @@ def measure(const double[:, ::1] position, const signed char[::1] role, const in
                 lay_out(i, position, row, other, width, offset, inverse)
             invert(row[begin], row[end], floor, inverse)
             for i in range(begin, end):
+                if smooth and role[i] == FLUID and solid[i] < row[i + 1]:
+                    flatten(solid[i], row[i + 1], radius, inverse, offset)
                 add_up(i, row, radius, offset, inverse, first, second)
             begin = end
 
@@ -103,6 +109,35 @@ cdef inline void invert(Py_ssize_t begin, Py_ssize_t end, float floor,
         for lane_ in range(LANES):
             square = value[lane_] if value[lane_] > least else least
             value[lane_] = one / sqrtf(square)
+
+
+cdef inline void flatten(Py_ssize_t begin, Py_ssize_t end, float radius,
+                         const float[::1] inverse, float[:, ::1] offset) noexcept nogil:
+    """n (n . r_ij) in place of r_ij for the solids of a row, n being their normal.
+
+    A wall of particles is a washboard: along it their forces hold the water in its hollows.  The
+    normal is that of sum_j (1 - r^2/r_e^2)^3 r_ij, which hardly feels the single particles.  Between
+    solids on two sides there is none, and r_ij stays.
+    """
+    cdef Py_ssize_t k
+    cdef double q, c, length, x = 0, y = 0, z = 0, size = 0
+    for k in range(begin, end):
+        q = 1.0 / (inverse[k] * radius)
+        if q < 1.0:
+            c = (1.0 - q * q) * (1.0 - q * q) * (1.0 - q * q)
+            x += c * offset[k, 0]
+            y += c * offset[k, 1]
+            z += c * offset[k, 2]
+            size += c / inverse[k]
+    length = sqrt(x * x + y * y + z * z)
+    if length <= LEAST_LEAN * size:
+        return
+    x, y, z = x / length, y / length, z / length
+    for k in range(begin, end):
+        length = x * offset[k, 0] + y * offset[k, 1] + z * offset[k, 2]
+        offset[k, 0] = <float>(length * x)
+        offset[k, 1] = <float>(length * y)
+        offset[k, 2] = <float>(length * z)
 
 
 cdef inline void add_up(Py_ssize_t i, const int[::1] row, float radius, float[:, ::1] offset,

@@ -53,25 +53,29 @@ def acceleration(const int[::1] row, const int[::1] solid, const int[::1] other,
                  const double[::1] viscosity, bint slip, double[:, ::1] out):
     """(2 Ds (Ds + 2)/(lambda0 n0)) sum_j (nu_i + nu_j)/2 w ((u_j - u_i) . e) e of the water [m/s2].
 
-    e = r_ij/r.  With `slip` the walls are left out of the sum: they have no friction.
+    e = r_ij/r.  With solids j, which may be smooth and have no r_ij along their face, the term is
+    that of the Laplacian, nu_i w (u_j - u_i) 2/(Ds + 2).  With `slip` the walls are left out of the
+    sum: they have no friction.
 
-    viscosity : (n,) nu of each particle [m2/s]; a solid takes that of the water particle
+    viscosity : (n,) nu of each particle [m2/s]
     """
     cdef double radius = stencil.radius, moment = stencil.lambda0 * stencil.n0
     cdef double factor = stencil.dim * (stencil.dim + 2) / moment
-    cdef double both
-    cdef four total
+    cdef double drag = 2.0 / (stencil.dim + 2)
+    cdef four here, total
     cdef Py_ssize_t i, j, k, a
     with nogil:
         for i in range(solid.shape[0]):
             if role[i] != FLUID:
                 continue
-            total = nothing()
-            for k in range(row[i], solid[i] if slip else row[i + 1]):
+            here, total = load(&velocity[i, 0]), nothing()
+            for k in range(row[i], solid[i]):
                 j = other[k]
-                both = viscosity[i] + viscosity[j if k < solid[i] else i]
-                total = stretched(total, both * weight(inverse[k], radius), inverse[k],
-                                  &velocity[j, 0], &velocity[i, 0], &offset[k, 0])
+                total = stretched(total, (viscosity[i] + viscosity[j]) * weight(inverse[k], radius),
+                                  inverse[k], &velocity[j, 0], &velocity[i, 0], &offset[k, 0])
+            for k in range(solid[i], solid[i] if slip else row[i + 1]):
+                total = plus(total, drag * viscosity[i] * weight(inverse[k], radius),
+                             minus(load(&velocity[other[k], 0]), here))
             for a in range(3):
                 out[i, a] = factor * lane(total, a)
 
