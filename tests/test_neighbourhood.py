@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from tanks import SINGLE, cloud, near_of, neighbors_of, particles_at
+from tanks import SINGLE, cloud, lattice, near_of, neighbors_of, particles_at
 
 from mpslab.core import plugins
 from mpslab.core.neighbourhood import Neighbourhood, padded
@@ -91,6 +91,45 @@ def test_rows_have_water_before_solids_each_in_the_order_of_the_list(dim):
         assert near.other[near.row[i] : near.solid[i]].tolist() == water.tolist()
         solid = near.other[near.solid[i] : near.row[i + 1]]
         assert solid.tolist() == row[~particles.fluid[row]].tolist()
+
+
+def washboard(dim, height, along, smooth):
+    """Offsets to solids, and w/r^2, of one particle of water above a bed of particles."""
+    bed = lattice(dim, 3)
+    bed = bed[bed[:, 2] < 0.0] + [0.0, 0.0, 0.5]
+    position = np.vstack([[along, 0.3 * along * (dim - 2), height], bed])
+    particles = particles_at(position, np.where(np.arange(len(position)), FACE, FLUID))
+    found = neighbors_of(position, 2.6)
+    near = Neighbourhood(make_stencil(dim, 1.0, 2.1)).measure(particles, found, smooth=smooth)
+    pairs = near.offset[near.solid[0] : near.row[1]].astype(float)
+    return pairs[:, :3], pairs[:, 3:]
+
+
+@pytest.mark.parametrize("dim", DIMS)
+def test_a_smooth_bed_pushes_nowhere_but_up(dim):
+    """The largest push along the bed, over that upwards, at uniform pressure."""
+    aside = {}
+    for smooth in (False, True):
+        sums = []
+        for along in np.linspace(0.05, 0.45, 9):
+            r, g = washboard(dim, 0.4, along, smooth)
+            sums.append((r * g).sum(axis=0))
+        sums = np.array(sums)
+        aside[smooth] = np.abs(sums[:, :2]).max() / np.abs(sums[:, 2]).min()
+    assert aside[False] > 0.025
+    assert aside[True] < 0.3 * aside[False]
+
+
+def test_solids_around_a_corner_are_not_smoothed():
+    place = lattice(2, 4)
+    solid = (place[:, 0] < 0.0) | (place[:, 2] < 0.0)
+    position = np.vstack([[[0.1, 0.0, 0.2]], place[solid]])
+    particles = particles_at(position, np.where(np.arange(len(position)), FACE, FLUID))
+    found = neighbors_of(position, 2.6)
+    near = Neighbourhood(make_stencil(2, 1.0, 2.1))
+    raw = near.measure(particles, found).offset.copy()
+    smooth = near.measure(particles, neighbors_of(position, 2.6), smooth=True).offset
+    np.testing.assert_array_equal(smooth[: near.row[1]], raw[: near.row[1]])
 
 
 @pytest.mark.parametrize("dim", DIMS)

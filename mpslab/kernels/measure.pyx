@@ -6,8 +6,8 @@ from mpslab.kernels.lanes cimport (
 )
 from mpslab.kernels.pair cimport FLUID, LANES
 
-# Of a normal: its length, of what it would be if all solids lay in one direction.
-cdef double LEAST_LEAN = 0.5
+# Spacings along the normal to the particles of a wall: at the least so many, or it is no flat one.
+cdef double LEAST = 0.25
 # Rows of so many pairs are taken through all three parts at a time, and stay in the cache.
 cdef enum:
     PAIRS = 1024
@@ -30,7 +30,7 @@ def measure(const double[:, ::1] position, const signed char[::1] role, const in
     first : (n, 4) out, sum_j w r_ij [m] and the number density sum_j w
     second : (n, 3, 4) out, for each axis a: sum_j (r_ij)_a w/r^2 (r_ij, 1)
     """
-    cdef double width = stencil.width
+    cdef double width = stencil.width, least = LEAST * stencil.spacing
     cdef float radius = stencil.radius, floor = stencil.floor
     cdef Py_ssize_t i, begin = 0, end = 0, n = role.shape[0]
     with nogil:
@@ -43,7 +43,7 @@ def measure(const double[:, ::1] position, const signed char[::1] role, const in
             invert(row[begin], row[end], floor, inverse)
             for i in range(begin, end):
                 if smooth and role[i] == FLUID and solid[i] < row[i + 1]:
-                    flatten(solid[i], row[i + 1], radius, inverse, offset)
+                    flatten(solid[i], row[i + 1], radius, least, inverse, offset)
                 add_up(i, row, radius, offset, inverse, first, second)
             begin = end
 
@@ -111,16 +111,16 @@ cdef inline void invert(Py_ssize_t begin, Py_ssize_t end, float floor,
             value[lane_] = one / sqrtf(square)
 
 
-cdef inline void flatten(Py_ssize_t begin, Py_ssize_t end, float radius,
+cdef inline void flatten(Py_ssize_t begin, Py_ssize_t end, float radius, double least,
                          const float[::1] inverse, float[:, ::1] offset) noexcept nogil:
     """n (n . r_ij) in place of r_ij for the solids of a row, n being their normal.
 
     A wall of particles is a washboard: along it their forces hold the water in its hollows.  The
-    normal is that of sum_j (1 - r^2/r_e^2)^3 r_ij, which hardly feels the single particles.  Between
-    solids on two sides there is none, and r_ij stays.
+    normal is that of sum_j (1 - r^2/r_e^2)^3 r_ij, which hardly feels the single particles.  In
+    corners and gaps there is none, and r_ij stays: some solids are less than `least` away along n.
     """
     cdef Py_ssize_t k
-    cdef double q, c, length, x = 0, y = 0, z = 0, size = 0
+    cdef double q, c, length, x = 0, y = 0, z = 0
     for k in range(begin, end):
         q = 1.0 / (inverse[k] * radius)
         if q < 1.0:
@@ -128,11 +128,14 @@ cdef inline void flatten(Py_ssize_t begin, Py_ssize_t end, float radius,
             x += c * offset[k, 0]
             y += c * offset[k, 1]
             z += c * offset[k, 2]
-            size += c / inverse[k]
     length = sqrt(x * x + y * y + z * z)
-    if length <= LEAST_LEAN * size:
+    if length == 0.0:
         return
     x, y, z = x / length, y / length, z / length
+    for k in range(begin, end):
+        if (inverse[k] * radius > 1.0
+                and x * offset[k, 0] + y * offset[k, 1] + z * offset[k, 2] < least):
+            return
     for k in range(begin, end):
         length = x * offset[k, 0] + y * offset[k, 1] + z * offset[k, 2]
         offset[k, 0] = <float>(length * x)
