@@ -16,7 +16,7 @@ def viscous_acceleration(const int[::1] row, const int[::1] solid, const int[::1
     """nu <lap u>_i = nu (2 Ds/(lambda0 n0)) sum_j (u_j - u_i) w of the fluid particles [m/s2].
 
     Equation (1) of the paper, with the Laplacian of Koshizuka & Oka (1996).  With `slip` the
-    walls are left out of the sum: a wall without friction.
+    walls are left out of the sum: they have no friction.
     """
     cdef double radius = stencil.radius
     cdef double factor = viscosity * 2.0 * stencil.dim / (stencil.lambda0 * stencil.n0)
@@ -38,10 +38,11 @@ def strain_rate(const int[::1] row, const int[::1] solid, const int[::1] other,
                 const float[:, ::1] offset, const signed char[::1] role, stencil,
                 const double[:, ::1] velocity, const double[:, :, ::1] c, bint slip,
                 double[::1] out):
-    """|S| = sqrt(2 S:S) of the water, S the symmetric part of (Ds/n0) sum_j u_ij (x) C_i r_ij w/r^2.
+    """|S| = sqrt(2 S:S) of the water [1/s]; 0 for solids.
 
-    In [1/s]; 0 for solids.  Exact for linear velocities where the neighbours are complete.  With
-    `slip` the walls are left out, as in `viscous_acceleration`, and next to one |S| is about half.
+    S is the symmetric part of (Ds/n0) sum_j u_ij (x) C_i r_ij w/r^2, exact for linear velocities
+    where the neighbours are complete.  With `slip` the walls are left out, as in
+    `viscous_acceleration`; next to a wall |S| is then about half of what it should be.
 
     c : (n, 3, 4) correction matrices over all neighbours; see mpslab.kernels.moments
     """
@@ -72,7 +73,7 @@ def eddy_acceleration(const int[::1] row, const int[::1] solid, const int[::1] o
                       double[:, ::1] out):
     """Add (2 Ds/(lambda0 n0)) sum_j (e_i + e_j)/2 (u_j - u_i) w of the fluid particles [m/s2].
 
-    eddy : (n,) viscosity e of each particle; solids take that of their neighbour [m2/s]
+    eddy : (n,) viscosity e of each particle [m2/s]; a solid takes that of the water particle
     """
     cdef double radius = stencil.radius
     cdef double factor = stencil.dim / (stencil.lambda0 * stencil.n0)
