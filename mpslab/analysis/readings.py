@@ -1,4 +1,4 @@
-"""Gauges of a run on even times."""
+"""Gauges of a run in equal steps of time."""
 
 from dataclasses import dataclass
 
@@ -11,7 +11,7 @@ LEAST_STEPS = 40  # to a period of regular waves
 
 @dataclass(frozen=True)
 class Readings:
-    """Water levels at gauges, at even times.
+    """Water levels at gauges, in equal steps of time.
 
     Attributes
     ----------

@@ -168,10 +168,10 @@ def of_sea(elevation, x, step, low, high, width, depth, gravity, weights="equal"
     Parameters
     ----------
     elevation : (n, gauges) float64 [m]
-        At even times.
+        In equal steps of time.
     x : (gauges,) float64 [m]
     step : float [s]
-        Between the times.
+        Between two readings.
     low, high : float [Hz]
         Frequencies that count, low above 0.
     width : float [Hz]

@@ -15,7 +15,7 @@ class Spectrum:
     Attributes
     ----------
     frequency : (n,) float64 [Hz]
-        In even steps from 0 on.
+        In equal steps from 0 on.
     density : (n,) float64 [m2 s]
     freedom : float
         Degrees of freedom of the chi-squared distribution that each density has.
@@ -55,9 +55,9 @@ def welch(elevation, step, length):
     Parameters
     ----------
     elevation : (n,) float64 [m]
-        At even times.
+        In equal steps of time.
     step : float [s]
-        Between these times.
+        Between two readings.
     length : int
         Readings in a segment, from 4 to n.
 
@@ -83,9 +83,9 @@ def of_periods(elevation, step):
     Parameters
     ----------
     elevation : (n,) float64 [m]
-        At even times, over a whole number of periods.
+        In equal steps of time, over a whole number of periods.
     step : float [s]
-        Between these times.
+        Between two readings.
 
     Returns
     -------

@@ -18,7 +18,7 @@ def make(case):
 
 
 def check(case):
-    """Raise CaseError if a force is asked for that the run cannot tell."""
+    """Raise CaseError if the run cannot tell a force that the case asks for."""
     if len(case.force) > MOST:
         raise CaseError(f"force has {len(case.force):,} entries: must have at most {MOST:,}")
     check_names("force", case.force)

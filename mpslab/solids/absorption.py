@@ -19,7 +19,7 @@ WINDOW = 3.0  # spacings over which the gauge takes the mean
 FASTEST = 0.5  # sqrt(g h): largest speed; no wave needs as much before it breaks
 HARDEST = 0.5  # gravity: largest acceleration
 ROOM = 2.0  # strokes to either side, unless the case says otherwise
-SLOWING = 0.05  # periods of the peak: at its speed, the end of its room is at least so far away
+SLOWING = 0.05  # periods of the peak: at its speed it is at least so long from the end of its room
 SEAS = ("irregular", "focused", "bichromatic")
 
 

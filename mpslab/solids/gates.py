@@ -1,6 +1,6 @@
 """Gates: plates across the tank that hold back water until they are lifted.
 
-A gate stands on the bed, its thickness onshore of its place x, and is drawn straight up at a
+A gate stands on the bed and reaches onshore from its place x.  It is drawn straight up at a
 constant speed until it is above the walls.  It is as thick as an obstacle has to be, so that the
 water on one side does not press through to the other.
 """

@@ -9,7 +9,7 @@ from mpslab.theory import breaking, dispersion
 
 COLUMNS = (("time", "s"), ("elevation", "m"))
 TAPER = 0.05  # share of the record over which each of its ends fades to zero
-POINTS = 4  # even times to the median time between two rows
+POINTS = 4  # equal steps to the median time between two rows
 MOST_POINTS = 200_000
 LONGEST = 0.25  # share of the record: the longest period that the piston makes
 
@@ -17,9 +17,9 @@ LONGEST = 0.25  # share of the record: the longest period that the piston makes
 def make(record, wavemaker, depth, gravity, end):
     """Paddle X = Re sum of -i A / c0 e^{i omega t}, with A of a record and c0 of Biesel.
 
-    The elevation counts from the mean of the record. Times may be uneven: a monotone cubic goes
-    through the rows. The ends of the record fade to zero. Periods longer than a quarter of it are
-    left out: the longer they are, the farther the piston would have to go.
+    The elevation counts from the mean of the record. The steps of its times may differ: a monotone
+    cubic goes through the rows. The ends of the record fade to zero. Periods longer than a quarter
+    of it are left out: the longer they are, the farther the piston would have to go.
 
     Raises ValueError if a stroke or smoothing is given, or the record breaks or has too few rows.
     """
@@ -68,7 +68,7 @@ def make(record, wavemaker, depth, gravity, end):
 
 
 def _even(record):
-    """Step of even times [s], and the record at these times less its mean, (n,) float64 [m]."""
+    """An equal step of time [s], and the record in such steps less its mean, (n,) float64 [m]."""
     length = record.times[-1] - record.times[0]
     step = max(float(np.median(np.diff(record.times))) / POINTS, length / MOST_POINTS)
     count = int(np.ceil(length / step))

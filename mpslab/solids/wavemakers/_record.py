@@ -165,7 +165,7 @@ def _two_numbers(cells, text, alike, columns, where):
 
 
 def _digits(cell):
-    """Decimal places of a number as it is written; below 0 if only its exponent is large."""
+    """Decimal places of a number as it is written; negative for a large exponent, as in 1e3."""
     mantissa, _, exponent = cell.lower().partition("e")
     decimals = len(mantissa.replace(",", ".").partition(".")[2])
     return min(max(decimals - float(exponent or 0), -300.0), 300.0)

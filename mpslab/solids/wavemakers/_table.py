@@ -6,7 +6,7 @@ POINTS = 16  # of the table to the shortest period: with them, quintics are righ
 
 
 class Table:
-    """Quintics between even times, at which they have the given place, velocity and acceleration.
+    """Quintics between equal steps, at which they have the given place, velocity and acceleration.
 
     The velocity and acceleration of the table are the derivatives of its place, without jumps.
 

@@ -12,8 +12,8 @@ from mpslab.theory import breaking, waves
 def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     """Paddle X = (S / 2) sin(a) + B sin(2 a) less its value at t = 0, with a = omega t + a0.
 
-    B = H^2 / (32 h) (3 cosh kh / sinh^3 kh - 2 S / H) (Madsen 1971) and S as for `linear`. At a0
-    the velocity is 0 and turns forward, or backward with wavemaker.first = "backward".
+    B = H^2 / (32 h) (3 cosh kh / sinh^3 kh - 2 S / H) (Madsen 1971) and S as for `linear`. a0 is a
+    phase at which the piston is at rest and turns forward, with wavemaker.first = "backward" back.
 
     Raises ValueError as `_regular.first_order` does, or if H L^2 / h^3 >= 8 pi^2 / 3.
     """
