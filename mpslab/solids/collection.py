@@ -8,9 +8,9 @@ from mpslab.solids import gates, obstacles, shaped
 from mpslab.solids.piston import Piston
 from mpslab.solids.tank import Tank
 
-# A user's solid has a name without a dot: a dot stands between the name and the key of its state.
+# The name of a user's solid: without a dot, which stands between it and the key of its state.
 OWN_NAME = {**NAME, "forbidden": NAME["forbidden"] + ".", "unit": ""}
-KINDS = (obstacles, gates, shaped)  # a case may have several of each; in the order of their bodies
+KINDS = (obstacles, gates, shaped)  # that a case may have several of, in the order of their bodies
 
 
 def solids_of(case, paddle=None, own=(), backmost=0.0):
