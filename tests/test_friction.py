@@ -125,7 +125,7 @@ def test_walls_brake_the_water_by_its_own_eddies():
 def test_a_wall_with_friction_is_at_rest_at_its_face():
     """u = z over a wall whose face is at z = 0 has no viscous force; solids that stood for the
     water half a spacing behind it with their own velocity would leave a large one."""
-    position = lattice(2, 6) + [0.0, 0.0, 0.5]
+    position = lattice(2, 6) + np.array([0.0, 0.0, 0.5])
     role = np.where(position[:, 2] < 0.0, FACE, FLUID)
     near = near_of(particles_at(position, role), 2)
     near.particles.velocity[:, 0] = np.maximum(position[:, 2], 0.0)

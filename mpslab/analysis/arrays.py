@@ -2,8 +2,8 @@
 
 import numpy as np
 
-ALIKE = 0.01  # share by which depths differ that count as one
-OFF_PADDLE = 2.0  # depths: nearer to the piston its water is disturbed (evanescent modes)
+ALIKE = 0.01  # share by which depths may differ and still count as one
+OFF_PADDLE = 2.0  # depths: nearer to the piston the water is disturbed (evanescent modes)
 
 
 def asked(wanted, names, x, depth):
@@ -12,19 +12,19 @@ def asked(wanted, names, x, depth):
     Parameters
     ----------
     wanted, names : sequence of str
-        Those asked for, out of these.
+        The gauges asked for, and all gauges.
     x, depth : (gauges,) float64 [m]
-        Places, and depths of the still water.
+        Places of all gauges, and depths of the still water there.
 
     Returns
     -------
     list of int
-        Their rows.
+        Rows of the gauges asked for.
 
     Raises
     ------
     ValueError
-        If one does not exist, two stand at one place, or they do not stand in one depth.
+        If one does not exist, two stand at one place, or the depths differ.
     """
     unknown = [name for name in wanted if name not in names]
     if unknown:
@@ -50,20 +50,20 @@ def _twice(places):
 
 
 def most(x, depth, piston):
-    """The most gauges in water of one depth, each at a place of its own.
+    """As many gauges as there are in water of one depth, each at a place of its own.
 
-    Those within two depths of a piston are left out, if two others remain.
+    Gauges within two depths of a piston are left out, if two others remain.
 
     Parameters
     ----------
     x, depth : (gauges,) float64 [m]
     piston : bool
-        Whether there is one at x = 0.
+        Whether there is a piston at x = 0.
 
     Returns
     -------
     list of int
-        Their rows, by x.
+        Rows of the gauges, in the order of x.
     """
     groups = []
     for k in np.argsort(x, kind="stable"):

@@ -1,4 +1,4 @@
-"""Run-up, overtopping and walls of a run, beside what EurOtop and Goda expect of its waves."""
+"""Run-up, overtopping and walls of a run, beside what EurOtop and Goda expect for its waves."""
 
 from dataclasses import dataclass, replace
 
@@ -8,7 +8,7 @@ from mpslab.analysis import eurotop, goda, shore, windows
 from mpslab.core import bed as beds
 from mpslab.theory import breaking, waves
 
-FEWEST = 2.0  # periods of a window
+FEWEST = 2.0  # periods in a window
 
 
 @dataclass(frozen=True)
@@ -20,14 +20,14 @@ class Coast:
     level : float [m]
         Of the still water.
     window : mpslab.analysis.windows.Window
-        From when the waves have come to the shore; of regular waves whole periods.
+        It begins when the waves have come to the shore; for regular waves it has whole periods.
     runups : tuple of mpslab.analysis.shore.Runup
     overtopped : tuple of mpslab.analysis.shore.Overtopped
     pushed : tuple of mpslab.analysis.shore.Pushed
     hunt : float [m]
-        Run-up of regular waves by Hunt's law, NaN of a sea or without a slope.
+        Run-up of regular waves by Hunt's law, NaN for a sea or without a slope.
     expected : (n,) structured array
-        Of `mpslab.analysis.eurotop.table`: "R2%" of a sea, and "q", beside what the first run-up
+        From `mpslab.analysis.eurotop.table`: "R2%" for a sea, and "q", beside what the first run-up
         and the first plane of the case measured.
     notes : tuple of str
     """
@@ -53,9 +53,11 @@ def look(run, level, regular, arrival, window, asked, period, found):
     regular : bool
     arrival : mpslab.analysis.windows.Arrival or None
     window : mpslab.analysis.windows.Window
-        Of the gauges; `asked` for, or found.
+        Of the gauges.
+    asked : bool
+        Whether the user asked for this window; if not, it was found.
     period : float [s]
-        Of the waves, of a sea their mean.
+        Of the waves; for a sea the mean.
     found : mpslab.analysis.reflection.Reflection or None
         The incident waves.
 
@@ -91,7 +93,7 @@ def look(run, level, regular, arrival, window, asked, period, found):
 
 @dataclass(frozen=True)
 class _Incident:
-    """The incident waves: Hm0 and Tm-1,0, and height, period of the highest of them."""
+    """The incident waves: Hm0, Tm-1,0 and the height of the highest wave."""
 
     significant: float
     period: float
@@ -99,7 +101,7 @@ class _Incident:
 
     @classmethod
     def of(cls, found, regular, period, gravity):
-        """Those of a reflection; None without one."""
+        """The incident waves of a reflection; None if there is no reflection."""
         if found is None or not gravity:
             return None
         height = found.incident_height
@@ -120,7 +122,7 @@ class Site:
     width : float [m]
         1 in 2-D.
     slope : float
-        Of the bed where the still water meets it, 0 where it does not.
+        Of the bed where the still water meets it; 0 if it does not meet the bed.
     place, top : float [m]
         x of the still shoreline, or of the first wall; and height of the slope's crest, infinite
         without a slope.
@@ -146,7 +148,7 @@ class Site:
         self.place = min([self.place, *walls])
 
     def ground(self, x):
-        """Highest ground up to a place [m], and the obstacle that it is, None for the bed."""
+        """Height of the highest ground up to a place [m], and which obstacle that is, or None."""
         along = [z for place, z in self.bed if place <= x]
         highest, of = max([*along, float(beds.elevation(self.bed, x))]), None
         for one in self.obstacles:
@@ -174,7 +176,7 @@ class Site:
 
 
 def _later(window, arrival, place, period):
-    """The part of a window in which the waves have come to a place, and notes."""
+    """The part of a window after the waves have come to a place, and notes."""
     start = max(window.start, arrival.at(place))
     if window.end - start >= FEWEST * period:
         reason = f"from when the waves have come to x = {place:.4g} m"
@@ -209,7 +211,7 @@ def _overtopped(run, one, window, count, site, period):
 
 
 def _pushed(run, one, window, site, sea, arrival):
-    """The force on an end wall, or on an obstacle from the bed out of the water; else None."""
+    """The force on an end wall, or on an obstacle from the bed to above the water; else None."""
     found = [
         box
         for box in site.obstacles
@@ -264,7 +266,7 @@ def _expected(site, sea, regular, runups, passed, planes):
 
 
 def _discharge(site, sea, freeboard, obstacle):
-    """Discharge over the bed or over an obstacle that EurOtop expects; None of neither."""
+    """Discharge that EurOtop expects over the bed or over an obstacle; None for anything else."""
     if obstacle is None:
         if not site.slope:
             return None

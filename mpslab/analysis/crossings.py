@@ -3,14 +3,14 @@
 import numpy as np
 
 WAVE = np.dtype([(name, float) for name in ("time", "period", "height", "crest", "trough")])
-RIPPLE = 0.02  # times 4 standard deviations
+RIPPLE = 0.02  # times 4 standard deviations; see `waves`
 
 
 def waves(time, elevation, crossing="down", ripple=RIPPLE):
     """The waves of a record.
 
-    A wave goes from one crossing of the mean level to the next in the same direction. A ripple that
-    does not go beyond a small distance of the level on both sides makes no crossing.
+    A wave goes from one crossing of the mean level to the next in the same direction. A crossing
+    counts only if the water goes beyond a small distance from the level on both sides of it.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def statistics(found):
     dict of str to float
         "N"; mean height "Hmean" and period "Tmean"; "H1/3" and "T1/3", means over the highest third
         of the waves; "H1/10", over the highest tenth; "Hmax"; "crest" and "trough", the extremes.
-        [m] and [s]. NaN where there are too few waves for it: three, or ten for the tenth.
+        [m] and [s]. NaN if there are too few waves: below three, for the tenth below ten.
     """
     order = np.argsort(found["height"])[::-1]
     height, period = found["height"][order], found["period"][order]

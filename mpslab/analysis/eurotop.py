@@ -2,9 +2,9 @@
 
 EurOtop: Manual on wave overtopping of sea defences and related structures, second edition. These
 are its mean relations. Each of their coefficients has a standard deviation (in the manual's design
-relations they are one standard deviation off the mean); for the band here, from 5 % to 95 %, all of
-them are 1.645 standard deviations off. Heights and periods are those of the incident waves at the
-toe.
+relations the coefficients are one standard deviation off the mean); for the band here, from 5 % to
+95 %, all of them are 1.645 standard deviations off. Heights and periods are those of the incident
+waves at the toe.
 """
 
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ class Expected:
     relation : str
         Equations of EurOtop 2018.
     doubts : tuple of str
-        Where a number lies outside the tests behind the relation; empty if none does.
+        Which numbers lie outside of the tests behind the relation; empty if none does.
     """
 
     name: str
@@ -98,7 +98,7 @@ def overtopping_of_slope(
     Parameters
     ----------
     height, period, slope, gravity, berm, rough, oblique
-        As of `runup`.
+        As for `runup`.
     freeboard : float [m]
         Rc, from still water up to the crest, 0 or more.
     wall : float
@@ -107,7 +107,7 @@ def overtopping_of_slope(
     Returns
     -------
     Expected
-        "q" [m2/s], so m3/s for each metre of crest.
+        "q" [m2/s]: m3/s for each metre of crest.
     """
     _require_freeboard(freeboard)
     xi = surf_similarity(slope, height, period, gravity)
@@ -128,8 +128,8 @@ def overtopping_of_slope(
 def overtopping_of_wall(height, period, depth, freeboard, gravity=9.81, foreshore=True):
     """Mean overtopping discharge of a plain vertical wall (equations 7.1, 7.5, 7.7 and 7.8).
 
-    Without a foreshore: q / sqrt(g Hm0^3) = 0.047 exp(-(2.35 Rc / Hm0)^1.3). With one, and
-    h^2 / (Hm0 L) above 0.23: 0.05 exp(-2.78 Rc / Hm0). Below, waves break onto the wall: with
+    Without a foreshore: q / sqrt(g Hm0^3) = 0.047 exp(-(2.35 Rc / Hm0)^1.3). With a foreshore, and
+    h^2 / (Hm0 L) above 0.23: 0.05 exp(-2.78 Rc / Hm0). Below 0.23 waves break onto the wall: with
     b = sqrt(Hm0 / (h s)), s = Hm0 / L, 0.011 b exp(-2.2 Rc / Hm0) up to Rc = 1.35 Hm0 and
     0.0014 b (Rc / Hm0)^-3 beyond. Standard deviations 0.007 and 0.23; 0.012 and 0.17; 0.0045;
     0.0006.
@@ -139,7 +139,7 @@ def overtopping_of_wall(height, period, depth, freeboard, gravity=9.81, foreshor
     height, period : float [m], [s]
         Hm0 and Tm-1,0 of the incident waves at the toe.
     depth, freeboard : float [m]
-        Still water at the toe, and from it up to the crest, 0 or more.
+        Of the still water at the toe; and from still water up to the crest, 0 or more.
     gravity : float [m/s2]
     foreshore : bool
         Whether a sloping bed in front shapes the waves.
@@ -182,7 +182,7 @@ def table(expected, measured=None):
     ----------
     expected : sequence of Expected
     measured : dict of str to float, optional
-        By the names of what was expected.
+        By the names of what is expected.
 
     Returns
     -------

@@ -1,7 +1,7 @@
 """Wave force on an upright wall by Goda's formula, with Takahashi's impulsive pressure.
 
 Goda (1974), as in Goda (2010), Random Seas and Design of Maritime Structures; Takahashi, Tanimoto
-and Shimosako (1994). Waves come at right angles. Pressures are those beyond still water's.
+and Shimosako (1994). Waves come at right angles. The pressure of still water is not included.
 """
 
 from dataclasses import dataclass
@@ -17,17 +17,17 @@ class Wall:
     Attributes
     ----------
     depth : float [m]
-        h, still water before the foundation.
+        h, still water in front of the foundation.
     foot : float [m]
         h', from still water down to the foot of the wall.
     over_berm : float [m]
-        d, still water over the foundation; the foot's depth where it is not armoured.
+        d, still water over the foundation; without armour the depth of the foot.
     crest : float [m]
         hc, from still water up to the top of the wall.
     berm : float [m]
-        B_M, width of the foundation before the wall, 0 for none.
+        B_M, width of the foundation in front of the wall, 0 for none.
     slope : float
-        Tangent of the sea bed's slope before it.
+        Tangent of the sea bed's slope in front of it.
     """
 
     depth: float
@@ -40,15 +40,15 @@ class Wall:
 
 @dataclass(frozen=True)
 class Load:
-    """What a wave presses on the wall with, on each metre of it.
+    """What a wave presses with on each metre of the wall.
 
     Attributes
     ----------
     force : float [N/m]
     moment : float [N m/m]
-        About the foot of the wall, of the horizontal force.
+        Of the horizontal force, about the foot of the wall.
     reach : float [m]
-        eta*, how far above still water the pressure reaches if the wall does.
+        eta*, how far above still water the pressure reaches if the wall is as high.
     p1, p3, p4 : float [Pa]
         At still water, at the foot and at the crest of the wall.
     impulsive : float
@@ -74,12 +74,12 @@ def load(wall, height, length, density=1000.0, gravity=9.81, significant=None):
     ----------
     wall : Wall
     height : float [m]
-        Hmax, of the highest wave; of regular waves their height.
+        Hmax, of the highest wave; for regular waves their height.
     length : float [m]
         Wavelength in the depth of the wall.
     density, gravity : float [kg/m3], [m/s2]
     significant : float [m], optional
-        H1/3, five of which before the wall the depth h_b is taken; `height` / 1.8 when left out.
+        H1/3: h_b is the depth at five times H1/3 in front of the wall. `height` / 1.8 if left out.
 
     Returns
     -------

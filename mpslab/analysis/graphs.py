@@ -10,13 +10,13 @@ from mpslab.analysis.pictures import COLOURS, STYLE
 from mpslab.analysis.seastate import AMPLITUDES
 
 MOST = 12  # gauges in a picture
-HIGHEST = 2.0  # times the largest density: so far up a band is drawn
+HIGHEST = 2.0  # times the largest density: a band is drawn up to there
 NAMES = ("levels", "spectra", "harmonics", "reflection", *shore_graphs.NAMES)
-SHOWN = 4.0  # times the peak frequency: so far a spectrum is drawn
+SHOWN = 4.0  # times the peak frequency: a spectrum is drawn up to there
 
 
 def draw(sea):
-    """Draw what there is.
+    """Draw the pictures that a sea state has numbers for.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ def draw(sea):
     Yields
     ------
     str, matplotlib Figure
-        "levels", "spectra" or of regular waves "harmonics", "reflection"; "runup", "overtopping"
+        "levels"; "spectra", or for regular waves "harmonics"; "reflection"; "runup", "overtopping"
         and "walls".
     """
     with matplotlib.rc_context(STYLE):

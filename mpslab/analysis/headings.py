@@ -1,4 +1,4 @@
-"""What stands over a picture: the case, the models and the resolution that it was run with."""
+"""The heading of a picture: the case, and the models and the resolution that it was run with."""
 
 import textwrap
 from dataclasses import fields
@@ -7,7 +7,7 @@ from pathlib import Path
 from mpslab.cases.recipes import RECIPES
 from mpslab.core.scheme import Scheme
 
-# A picture does not depend on these, but for rounding.
+# A picture does not depend on these, except for rounding.
 UNSEEN = ("recipe", "solver", "tolerance", "max_iterations")
 
 

@@ -5,16 +5,16 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-# Columns of this width hold two particles a layer, so that disorder leaves no gap in the water.
+# Columns of this width hold two particles in a layer, so that disorder leaves no gap in the water.
 COLUMN = 2.0  # [spacings]
 GAP = 2.0  # [spacings] between particles, as for the gauges
-# In a jet each particle has this many others within reach, in spray it has not.
+# In a jet each particle has this many others within REACH, in spray it has fewer.
 COHERENT = 6
 REACH = 2.1  # [spacings]
 JET = 8
 # Particles as near as this belong to one body of water.
 LINK = 1.5  # [spacings]
-# At a front, this many columns behind it hold higher water, and as many ahead lower water.
+# Behind a front this many columns hold higher water, and ahead of it as many hold lower water.
 BEHIND, AHEAD = 5, 2
 UPRIGHT = 3.5  # [spacings] between the water behind and ahead
 BROAD = 3  # columns over which a jet hangs; a gap in the sheet of a run-up is narrower
@@ -50,7 +50,7 @@ class Crest:
 
 
 def find_crest(x, z, speed, spacing):
-    """Jet of the water surface if there is one, else where it is steep and fast.
+    """The jet of the water surface; if there is none, the place where it is steep and fast.
 
     Slope alone could just as well find the ragged edge of the water at a wall, and speed alone the
     thin sheet that runs up a slope.
@@ -96,9 +96,9 @@ def find_front(x, z, along, spacing):
     """The front of a wave that breaks, in a slice x-z.
 
     It belongs to the largest body of connected water, without spray. The water behind it stands
-    several spacings higher than the water ahead, over a breadth that the sheet of a run-up does not
-    have; and it overtakes the water ahead, which it does not where a column collapses. It overturns
-    where a broad jet hangs over air.
+    several spacings higher than the water ahead, over more columns than in the sheet of a run-up;
+    and it moves faster than the water ahead, unlike the water of a column that collapses. It
+    overturns where a broad jet hangs over air.
 
     Parameters
     ----------
@@ -181,9 +181,9 @@ def _largest_body(x, z, reach):
 
 
 def _columns(x, z, spacing):
-    """Columns with water, the particle on top of the lowest water in each, what hangs over air.
+    """Columns with water, the particle on top of the lowest water in each, and what hangs over air.
 
-    Returns (c,) places in spacings, (c,) int rows of particles, and (n,) bool.
+    Returns (c,) places in spacings, (c,) int rows of particles, and a mask (n,) bool.
     """
     number = np.floor(x / (COLUMN * spacing))
     order = np.lexsort((z, number))

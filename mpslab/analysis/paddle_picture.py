@@ -10,13 +10,13 @@ from mpslab.theory import dispersion, spectra
 
 SAMPLES = 40  # to the shortest period
 MOST = 200_000
-HIGHEST = 4.0  # frequency over that of the peak, up to which the spectrum is drawn
+HIGHEST = 4.0  # times the peak frequency: the spectrum is drawn up to there
 
 
 def draw(case, path):
     """Draw displacement and speed of the piston until the end of the run, and a spectrum.
 
-    The spectrum is that of the waves which the motion makes by linear theory, over the whole run.
+    The spectrum is that of the waves that the motion makes over the whole run, by linear theory.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def _asked(case, frequency):
 
 
 def spectrum(times, place, depth, gravity):
-    """Frequencies [Hz] and variance density [m2/Hz] of its waves by linear theory, (n,) each."""
+    """Frequencies [Hz] and variance density [m2/Hz] of a motion's waves by linear theory, (n,)."""
     step, count = times[1] - times[0], len(times)
     moved = np.fft.rfft((place - place.mean()) * np.hanning(count))[1:]
     frequency = np.fft.rfftfreq(count, step)[1:]

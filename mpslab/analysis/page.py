@@ -1,4 +1,4 @@
-"""One page of a sea state, in HTML, which loads nothing: its pictures stand in it."""
+"""One page about a sea state, in HTML; it loads nothing, because it holds its pictures."""
 
 import base64
 from pathlib import Path
@@ -43,7 +43,7 @@ def render(sea, pictures):
 
 
 def templates(folder):
-    """The templates in a folder, as a jinja2 environment that bears no undefined name."""
+    """The templates in a folder, as a jinja2 environment in which an undefined name is an error."""
     import jinja2
 
     return jinja2.Environment(

@@ -22,26 +22,26 @@ SOLIDS = {
 FACES = {WALL: "wall", PISTON: "piston", GATE: "gate"}
 FILLERS = {DUMMY: "wall", PISTON_DUMMY: "piston", GATE_DUMMY: "gate"}
 STILL_WATER = {"color": "#d55e00", "linewidth": 1.0, "linestyle": (0, (6, 4))}
-WATER = "#3b7dbf"  # where the frames do not hold what would colour it
-MAPS = {"speed": "viridis", "along": "cividis", "pressure": "plasma"}  # even to the eye
+WATER = "#3b7dbf"  # if the frames do not hold the field that would colour it
+MAPS = {"speed": "viridis", "along": "cividis", "pressure": "plasma"}  # perceptually uniform
 LABELS = {"speed": "speed [m/s]", "along": "velocity along the tank [m/s]",
           "pressure": "pressure [Pa]"}  # fmt: skip
-BACKWARD = 0.5  # the colours of velocity along the tank begin at -1 times that of their end
-# The colours of speed end at the one of these times sqrt(g h) that is nearest to what is expected:
-# of a crest that breaks, over the speed below it by the linear theory of long waves; of a column
-# that collapses, and of still water, over sqrt(g h).
+BACKWARD = 0.5  # the colours of velocity along the tank begin at this share of their end, negative
+# The colours of speed end at sqrt(g h) times the one of ENDS that is nearest to the speed expected.
+# That is CREST times the speed that linear theory of long waves has below a crest (it may break),
+# COLLAPSE times sqrt(g h) for a column that collapses, and STILL times that for still water.
 ENDS = tuple(step * 10.0**power for power in range(-6, 7) for step in (1, 2, 5))
 CREST, COLLAPSE, STILL = 3.0, 2.0, 0.05
-HIGHEST = 1.2  # those of pressure: times that on the bed under still water
+HIGHEST = 1.2  # the colours of pressure end at the pressure on the bed under still water times this
 PAGE_WIDTH = 10.0  # [inch]
-# Discs as wide as the spacing touch; smaller ones than this leave no more than a pattern, and are
-# drawn so many times as wide, which closes the gaps.
+# Discs as wide as the spacing touch. If they are smaller than SMALL, only a pattern is seen: they
+# are drawn CLOSED times as wide, which closes the gaps.
 SMALL, CLOSED = 2.5, 1.4  # [points of 1/72 inch], [-]
 
 
 @dataclass(frozen=True)
 class Scale:
-    """Colours of the water: of what, up to where, and its unit of the tank.
+    """Colours of the water: the field they show, its value where they end, and the tank's unit.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ class Scale:
 
 
 def make_scale(case, field):
-    """The `Scale` of a field, which follows from the case alone: it is that of all its pictures.
+    """The `Scale` of a field: it follows from the case alone, so all pictures of a run have it.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def make_scale(case, field):
 
     Returns
     -------
-    Scale, or None if nothing is there to measure the field by
+    Scale, or None if the case has nothing to measure the field by
     """
     depth, gravity, density = (
         case["tank"]["depth"], case["fluid"]["gravity"], case["fluid"]["density"]
@@ -113,7 +113,7 @@ def _expected_speed(case, fast):
 
 
 def draw_panels(slices, case, box, title, field):
-    """One panel for each slice, the same limits and colours in all.
+    """One panel for each slice, with the same limits and colours in all.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ def draw_panels(slices, case, box, title, field):
     title : str
         What the picture shows.
     field : str
-        What colours the water, "speed" or "pressure"; one colour where the frames do not hold it.
+        What colours the water, "speed" or "pressure"; one colour if the frames do not hold it.
 
     Returns
     -------
@@ -171,7 +171,7 @@ def _draw_colour_bar(figure, axes, water, scale):
 
 
 def _draw_legend(figure, slices, case, box, scale):
-    """What is not told by the colour bar: solids, still water, and water of one colour."""
+    """What the colour bar does not tell: solids, still water, and water of one colour."""
     (left, right), (bottom, top) = box
     seen = set()
     for piece in slices:
@@ -205,7 +205,7 @@ def _solid(piece, case, name):
 
 
 def disc_size(spacing, scale):
-    """Diameter of the discs [m], of particles of a spacing [m] at a scale [points/m]."""
+    """Diameter of the discs [m] for particles of a spacing [m], at a scale [points/m]."""
     return spacing if spacing * scale >= SMALL else CLOSED * spacing
 
 
@@ -226,7 +226,7 @@ def draw_slice(ax, piece, case, scale, size):
     Returns
     -------
     matplotlib EllipseCollection
-        That of the water.
+        The discs of the water.
     """
     is_face = np.isin(piece.kind, list(FACES))
     for name, colours in SOLIDS.items():
@@ -242,7 +242,7 @@ def draw_slice(ax, piece, case, scale, size):
 
 
 def _draw_discs(ax, piece, mask, size, **colour):
-    """Discs of a size in the units of the axes."""
+    """Discs with a diameter `size` in the units of the axes."""
     size = np.full(np.count_nonzero(mask), size)
     discs = EllipseCollection(
         size,

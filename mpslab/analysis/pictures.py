@@ -8,7 +8,7 @@ from mpslab.analysis.headings import heading
 from mpslab.analysis.results import open_run
 from mpslab.analysis.snapshots import draw_breaker, draw_tank
 
-# Okabe and Ito's colours, which stay apart for the colour-blind.
+# Okabe and Ito's colours, which the colour-blind can tell apart.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 STYLE = {
     "font.size": 12,
@@ -24,16 +24,16 @@ STYLE = {
 }
 NAMES = ("tank", "pressure", "breaker", "gauges", "probes", "energy", "solver")
 RESOLUTIONS = range(160, 60, -10)  # of pictures in documents, dots an inch
-MEDIAN = 3  # readings whose median a reading is held against
-OUTLYING = 0.2  # times the range of those medians: a reading farther out is off the scale
+MEDIAN = 3  # readings whose median a reading is compared with
+OUTLYING = 0.2  # times the range of these medians: a reading farther out is off the scale
 
 
 def draw_run(folder):
     """Draw the pictures of a run into ``pictures`` of its folder.
 
     ``tank.png``, ``pressure.png`` and ``breaker.png`` (particles), ``gauges.png``, ``probes.png``,
-    ``energy.png`` and ``solver.png``. A picture that the files hold nothing for is left out, and
-    taken away if it is there from an earlier call; so is the breaker where no wave overturns.
+    ``energy.png`` and ``solver.png``. A picture for which the files hold nothing is not drawn, and
+    deleted if an earlier call drew it; so is the breaker if no wave overturns.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def save_small(figure, path, most):
     Raises
     ------
     ValueError
-        If it has more at the lowest resolution, at which it is left there.
+        If it has more even at the lowest resolution; the file is then left at that.
     """
     for dpi in RESOLUTIONS:
         figure.savefig(path, dpi=dpi, pil_kwargs={"optimize": True}, metadata={"Software": None})
@@ -86,7 +86,7 @@ def save_small(figure, path, most):
 
 
 def listed(drawn):
-    """The pictures that were drawn, a line each, and why there is none of a breaker."""
+    """The pictures that were drawn, a line each, and why a breaker is missing, if it is."""
     lines = [str(path) for path in drawn]
     names = {path.stem for path in drawn}
     if "tank" in names and "breaker" not in names:
@@ -95,7 +95,7 @@ def listed(drawn):
 
 
 def _figures(run):
-    """Names and figures, one after the other, of what there is to see."""
+    """Name and figure of each picture that the files hold something for, one after the other."""
     case = run.tables
     if run.frames:
         yield "tank", draw_tank(run.frames, case)
@@ -142,7 +142,7 @@ def _draw_reading(ax, time, values, unit):
 
 
 def _limits(values):
-    """Least and largest reading, without lone readings far from all medians of their neighbours."""
+    """Least and largest reading, without single readings that are far from all medians."""
     values = values[np.isfinite(values)]
     if len(values) < MEDIAN:
         return (values.min(), values.max()) if len(values) else (0.0, 0.0)
@@ -154,7 +154,7 @@ def _limits(values):
 
 
 def _place(instrument, case, axes):
-    """Name and place of a gauge or probe, of an axis that the tank has."""
+    """Name and place of a gauge or probe, along the axes that the tank has."""
     axes = [axis for axis in axes if axis != "y" or case["tank"]["width"]]
     where = ", ".join(f"{axis} = {instrument[axis]:g} m" for axis in axes if axis in instrument)
     return f"{instrument['name']}, {where}"
@@ -163,7 +163,7 @@ def _place(instrument, case, axes):
 def draw_gauges(gauges, case):
     """Surface elevation above still water against time, one panel for each gauge.
 
-    Where the water of the case is in boxes of its own, the level above z = 0 in its stead.
+    If the case lays out boxes of water, the level above z = 0 instead.
 
     Parameters
     ----------
@@ -216,14 +216,14 @@ def draw_probes(probes, case):
 
 
 def _name(ax, text):
-    """Name of a panel, and the legend of what is off its scale, over its top edge."""
+    """The panel's name, and the legend of what is off its scale, above its top edge."""
     ax.set_title(text, loc="left")
     if ax.get_legend_handles_labels()[0]:
         ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0, ncols=2)
 
 
 def draw_energy(steps, case):
-    """Kinetic energy, and potential and total energy less the start's, against time.
+    """Kinetic energy, and gain of potential and total energy since the start, against time.
 
     Parameters
     ----------

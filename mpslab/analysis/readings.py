@@ -1,17 +1,17 @@
-"""Gauges of a run on even times."""
+"""Gauges of a run in equal steps of time."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-DRY = 0.05  # share of readings that may be missing and are bridged
+DRY = 0.05  # share of readings that may be missing: up to it, gaps are bridged
 FEWEST = 16  # readings in a window
 LEAST_STEPS = 40  # to a period of regular waves
 
 
 @dataclass(frozen=True)
 class Readings:
-    """Water levels at gauges, at even times.
+    """Water levels at gauges, in equal steps of time.
 
     Attributes
     ----------
@@ -20,7 +20,7 @@ class Readings:
     elevation : (n, gauges) float64 [m]
         Above still water; NaN throughout at a gauge that was dry too long.
     dry : (gauges,) float64
-        Share of the readings that are missing. Up to 5 % are bridged.
+        Share of the readings that are missing. Up to 5 %, the gaps are bridged.
     """
 
     names: tuple
@@ -30,12 +30,12 @@ class Readings:
 
     @property
     def step(self):
-        """Distance of the times [s]."""
+        """Step of the times [s]."""
         return float(self.time[1] - self.time[0])
 
     @property
     def wet(self):
-        """Mask of the gauges (gauges,) that have an elevation."""
+        """Mask (gauges,) of those that have an elevation."""
         return np.isfinite(self.elevation[0])
 
 
@@ -53,8 +53,8 @@ def read(gauges, level, window, period=None):
         Of the still water.
     window : mpslab.analysis.windows.Window
     period : float [s], optional
-        Of regular waves. A period is then a whole number of steps, 40 or more, and the window a
-        whole number of periods, for which it may end earlier.
+        Of regular waves. A period is then a whole number of steps, 40 or more, and the window is
+        shortened to a whole number of periods.
 
     Returns
     -------

@@ -17,11 +17,11 @@ import numpy as np
 from mpslab.analysis.spectrum import without_trend
 from mpslab.theory.waves import wave_number
 
-# Of two gauges 0.05 and 0.45 wavelengths apart, Goda's limits: sin^2(0.1 pi).
+# Soundness of two gauges that are 0.05 or 0.45 wavelengths apart, Goda's limits: sin^2(0.1 pi).
 LEAST_SOUND = 0.0955
-# Share of a record at either end over which it fades in and out. Without it, what leaks from the
-# peak into other frequencies looks like reflection: in 60 to 100 waves, Kr = 0.05 where there is
-# none; with it 0.02.
+# Share of a record at either end over which it fades in and out. Without fading, what leaks from
+# the peak into other frequencies looks like reflection: in 60 to 100 waves without any reflection,
+# Kr = 0.05; with fading 0.02.
 TAPER = 0.05
 PRIMARY = (0.5, 1.5)  # times the peak frequency: where bound waves are few
 WEIGHTS = ("equal", "spacing")
@@ -39,13 +39,13 @@ def separate(amplitudes, x, k, weights="equal"):
         Wave numbers.
     weights : str
         "equal", or "spacing": w_p = sum over q of sin^2(k x_pq) / (1 + (k x_pq / pi)^2), which
-        trusts gauges more that are near to others but not half a wavelength off (Zelt & Skjelbreia
-        1992).
+        gives more weight to gauges that are near others, but not half a wavelength from them (Zelt
+        & Skjelbreia 1992).
 
     Returns
     -------
     incident, reflected : (frequencies,) complex128 [m]
-        At x = 0. 0 where the gauges stand at the same place for the wave.
+        At x = 0. They are 0 for a frequency at which the soundness is 0.
     residual : (frequencies,) float64 [m2]
         Mean over the gauges of |A_p - I exp(-i k x_p) - R exp(i k x_p)|^2.
     soundness : (frequencies,) float64
@@ -81,22 +81,22 @@ class Reflection:
     frequency : (n,) float64 [Hz]
         Of the harmonics, or of the middles of the bands.
     incident, reflected, residual : (n,) float64
-        Of regular waves amplitudes [m], of a sea variance densities [m2 s]; the residual is the
-        root mean square over the gauges, or the mean, of what neither wave explains.
+        For regular waves amplitudes [m], for a sea variance densities [m2 s]. The residual is what
+        neither wave explains: its root mean square over the gauges, for a sea its mean.
     left_out : (n,) bool
         Where the spacings of the gauges cannot tell the two apart: soundness below 0.0955. Such
         entries are NaN. A band of a sea is left out if none of its frequencies is sound.
     incident_height, reflected_height : float [m]
-        Of a sea 4 sqrt(m0), of regular waves 2 a of the first harmonic.
+        For a sea 4 sqrt(m0), for regular waves 2 a of the first harmonic.
     kr, kr_primary : float
-        Reflection coefficient over all frequencies, and of the first harmonic or from 0.5 to 1.5
-        times the peak frequency of the incident waves. A bound harmonic has another wave number
-        than the free wave that it is taken for, and so looks partly reflected: it is in the first
-        and not in the second.
+        Reflection coefficient over all frequencies; and over the primary ones: the first harmonic,
+        or 0.5 to 1.5 times the peak frequency of the incident waves. A bound harmonic has another
+        wave number than the free wave that it is taken for, and so looks partly reflected: it
+        counts in kr and not in kr_primary.
     unexplained, floor : float
-        Of the first harmonic, or from 0.5 to 1.5 times the peak frequency: the root mean square of
-        the residual over that of the waves at the gauges, and what kr_primary would be of no
-        reflection, by the noise that the residual shows (of equal weights). NaN of two gauges.
+        Over the primary frequencies: the root mean square of the residual over that of the waves at
+        the gauges; and what kr_primary would be without any reflection, by the noise that the
+        residual shows (for equal weights). NaN for two gauges.
     lost : float
         Share of the variance at the gauges, within the frequencies asked for, that was left out.
     """
@@ -122,7 +122,7 @@ def of_harmonics(amplitudes, x, period, depth, gravity, weights="equal"):
     Parameters
     ----------
     amplitudes : (gauges, harmonics) complex128 [m]
-        Of the first harmonic and those above, as of `mpslab.analysis.harmonics`.
+        Of the first harmonic and those above, as from `mpslab.analysis.harmonics`.
     x : (gauges,) float64 [m]
     period : float [s]
     depth, gravity : float [m], [m/s2]
@@ -168,10 +168,10 @@ def of_sea(elevation, x, step, low, high, width, depth, gravity, weights="equal"
     Parameters
     ----------
     elevation : (n, gauges) float64 [m]
-        At even times.
+        In equal steps of time.
     x : (gauges,) float64 [m]
     step : float [s]
-        Between the times.
+        Between two readings.
     low, high : float [Hz]
         Frequencies that count, low above 0.
     width : float [Hz]
@@ -224,13 +224,13 @@ def of_sea(elevation, x, step, low, high, width, depth, gravity, weights="equal"
 
 
 def _summary(amplitudes, incident, reflected, residual, soundness, sound, first):
-    """What holds for regular waves and for a sea; `first` masks the primary frequencies."""
+    """Numbers that regular waves and a sea have alike; `first` masks the primary frequencies."""
     gauges, first = len(amplitudes), sound & first
     power = np.mean(np.abs(amplitudes) ** 2, axis=0)
     onwards, back = np.abs(incident) ** 2, np.abs(reflected) ** 2
     unexplained = floor = np.nan
     if gauges > 2:
-        # Of the noise at P gauges the fit takes two parts of P; R gets 1 / (P soundness) of it.
+        # The fit takes up two parts in P of the noise at P gauges; R gets 1 / (P soundness) of it.
         noise = gauges / (gauges - 2.0) * residual[first]
         unexplained = _ratio(residual[first].sum(), power[first].sum())
         floor = _ratio(np.sum(noise / (gauges * soundness[first])), onwards[first].sum())

@@ -1,4 +1,4 @@
-"""What a run has left in its folder, finished or not: its case and record, its series and frames.
+"""What a run, finished or not, has left in its folder: its case and record, series and frames.
 
 >>> run = mpslab.open_run("results")
 >>> run.outcome, run.preflight["wave"]["height [m]"]
@@ -21,16 +21,16 @@ from mpslab.core.kinds import FLUID
 from mpslab.output.journal import journal_of
 from mpslab.output.tables import read_rows
 
-WORDS = {"steps": ("dt_limit",), "lost": ("reason",)}  # columns of words, by table
-LISTS = {"decomposition": ("particles", "seconds", "waiting")}  # of an entry for each rank
+WORDS = {"steps": ("dt_limit",), "lost": ("reason",)}  # columns that hold words, by table
+LISTS = {"decomposition": ("particles", "seconds", "waiting")}  # that have a number for each rank
 KEYS = {heading: key for key, heading in columns.DECOMPOSITION_COLUMNS.items()}
 
 
 def open_run(folder):
-    """A run to be looked at, from the files in its folder, by whatever launcher it was made.
+    """A run to be looked at, from the files in its folder, however it was started.
 
-    A run that goes on, or was cut off, is read as far as it is whole: a row or a frame that is
-    being written is left out.
+    A run that is still going, or was cut off, is read as far as its files are complete: a row or a
+    frame that is being written is left out.
 
     Parameters
     ----------
@@ -53,13 +53,13 @@ def open_run(folder):
 class Run:
     """A run as it was left; `open_run` makes one.
 
-    Each file is read when it is first asked for, and not again: open the run anew to see how far it
-    has come since. What cannot be read raises a ValueError of one line.
+    Each file is read when it is first asked for, and not again: open the run again to see how far
+    it has come since. What cannot be read raises a ValueError of one line.
 
     Parameters
     ----------
     folder : str or Path
-        A run folder. It may lack anything: what is not there is empty, but for the case.
+        A run folder. Any file but the case may be missing: what it would hold is then empty.
 
     Attributes
     ----------
@@ -74,7 +74,7 @@ class Run:
 
     @cached_property
     def tables(self):
-        """The tables of ``case.toml`` as they stand there, also of an earlier mpslab; a dict."""
+        """The tables of ``case.toml`` as they are, even those of an earlier mpslab; a dict."""
         path = self.folder / "case.toml"
         try:
             return tomllib.loads(path.read_text(encoding="utf-8"))
@@ -104,7 +104,7 @@ class Run:
     def outcome(self):
         """How the run ended: "finished", "stopped", "interrupted" or "failed".
 
-        "running" as long as it has not, and for good if it was killed; None without a record.
+        "running" if it has not ended, or was killed; None without a record.
         """
         return self.record.get("outcome")
 
@@ -115,9 +115,9 @@ class Run:
 
     @property
     def preflight(self):
-        """What was foretold of the run, `mpslab.run.preflight.Preflight.findings`.
+        """What ``--check`` says of the run beforehand, `mpslab.run.preflight.Preflight.findings`.
 
-        {"refused": why} of a case that ``--check`` refuses; empty for a run of an earlier mpslab.
+        {"refused": why} for a case that ``--check`` refuses; empty for a run of an earlier mpslab.
         """
         return self.record.get("preflight", {})
 
@@ -155,8 +155,8 @@ class Run:
         """How the tank was shared out among ranks, (n,); no row for a run on one rank.
 
         The fields are the keys of `mpslab.core.columns.DECOMPOSITION_COLUMNS`; "particles",
-        "seconds" [s] and "waiting" [s] are (n, ranks), NaN beyond the ranks of a part of the run
-        on fewer.
+        "seconds" [s] and "waiting" [s] are (n, ranks). If a part of the run had fewer ranks than
+        another, the rest is NaN.
         """
         return self._series("decomposition", columns.DECOMPOSITION_COLUMNS)
 
@@ -170,7 +170,7 @@ class Run:
     def table(self, name):
         """Rows of the table of any instrument, ``NAME.csv``, (n,): "time" [s] or "step" first.
 
-        The fields are its headings without their units; of forces, "NAME fx" [N], in 2-D [N/m].
+        The fields are its headings without their units, as "NAME fx" [N], in 2-D [N/m], of forces.
         """
         return self._series(name, ["time"])
 
@@ -183,7 +183,7 @@ class Run:
         return [instrument["name"] for instrument in self.tables.get(kind, ())]
 
     def _series(self, table, headings):
-        """Rows of a table; none, under these headings, if there is no table yet."""
+        """Rows of a table; no rows, with these headings, if there is no table yet."""
         path = self.folder / f"{table}.csv"
         try:
             header, *rows = read_rows(path) or [headings]
@@ -288,7 +288,7 @@ class Frames:
         """Times of the frames, (frames,) float64 [s]."""
         if not (self.path.exists() or journal_of(self.path).exists()):
             return np.empty(0)
-        from mpslab.output import vtkhdf  # which brings HDF5
+        from mpslab.output import vtkhdf  # here, because it loads HDF5
 
         return vtkhdf.read_times(self.path)
 
@@ -304,7 +304,7 @@ class Frames:
         return map(self._read, range(len(self)))
 
     def __getitem__(self, which):
-        """The `Frame` of a number, counted from the end if negative; `Frames` of a slice.
+        """The `Frame` with a number, counted from the end if negative; for a slice, `Frames`.
 
         ValueError if there is no frame at all, IndexError if there are fewer.
         """
@@ -318,7 +318,7 @@ class Frames:
         return self._read(number)
 
     def at(self, time):
-        """The `Frame` next to a time [s]; ValueError if there is none at all."""
+        """The `Frame` nearest to a time [s]; ValueError if there is none at all."""
         return self[int(np.argmin(np.abs(self.required().times - time)))]
 
     def required(self):

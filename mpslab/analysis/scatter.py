@@ -3,7 +3,7 @@
 import numpy as np
 import scipy
 
-ALONE = 1.5  # [spacings]: a particle with no other within it is on its own
+ALONE = 1.5  # [spacings]: a particle with no other one so near is on its own
 NEIGHBOURHOOD = 2.1  # [spacings]
 
 

@@ -1,4 +1,4 @@
-"""Sea states of a run: what its gauges say of the waves, incident and reflected ones too."""
+"""Sea states of a run: what its gauges tell of the waves, and of incident and reflected ones."""
 
 from dataclasses import dataclass
 
@@ -11,7 +11,7 @@ from mpslab.run.preflight import REGULAR
 
 BAND = (1.0 / 3.0, 6.0)  # times the peak frequency
 FEW_WAVES = 20
-TOLD = 1e-3  # share of the variance: less than that is left out of a reflection without a word
+TOLD = 1e-3  # share of the variance: if less is left out of a reflection, no note says so
 SEGMENT = 20.0  # peak periods in a segment of a record that is twice as long
 
 AMPLITUDES = tuple(f"a{n}" for n in range(1, HARMONICS + 1))
@@ -25,15 +25,15 @@ UNITS = {
 
 @dataclass(frozen=True)
 class Sea:
-    """What the gauges of a run say.
+    """What the gauges of a run tell of the waves.
 
     Attributes
     ----------
     run : mpslab.analysis.results.Run
     regular : bool
-        Regular waves, of the period `period`.
+        Whether the waves are regular, with the period `period`.
     period : float [s]
-        Of regular waves; of a sea the peak period by which band and segments were chosen.
+        Of regular waves; for a sea the peak period by which band and segments were chosen.
     window, back : mpslab.analysis.windows.Window
         Of the gauges, and of the reflection.
     band : (float, float) [Hz]
@@ -41,23 +41,23 @@ class Sea:
     crossing : str
         "down" or "up".
     readings : mpslab.analysis.readings.Readings
-        Of the window.
+        Those in the window.
     gauges : (gauges,) structured array
         "name" and the fields of `UNITS`, in these units: place and still depth; mean level above
         still water; `mpslab.analysis.spectrum.parameters`; `mpslab.analysis.crossings.statistics`;
-        "dry", the share of missing readings; and of regular waves the amplitudes "a1" to "a4" of
-        the harmonics. NaN where a gauge has no such number.
+        "dry", the share of missing readings; and for regular waves the amplitudes "a1" to "a4" of
+        the harmonics. NaN if a gauge has no such number.
     spectra : dict of str to mpslab.analysis.spectrum.Spectrum
-        Of each wet gauge; of regular waves the lines of the whole window.
+        Of each wet gauge; for regular waves, lines over the whole window.
     waves : dict of str to structured array
         Of each wet gauge, as `mpslab.analysis.crossings.waves`.
     reflection : mpslab.analysis.reflection.Reflection or None
     array : tuple of str
         Gauges that the reflection was taken from.
     coast : mpslab.analysis.coast.Coast
-        Run-up, overtopping, the force on walls, and what is expected of the incident waves.
+        Run-up, overtopping, the force on walls, and what is expected for the incident waves.
     notes : tuple of str
-        What has to be known of these numbers, a line each.
+        What one has to know about these numbers, a line each.
     """
 
     run: object
@@ -78,7 +78,7 @@ class Sea:
 
     @property
     def expected(self):
-        """What EurOtop expects of the incident waves, as of `mpslab.analysis.eurotop.table`."""
+        """What EurOtop expects for the incident waves, as from `mpslab.analysis.eurotop.table`."""
         return self.coast.expected
 
 
@@ -86,25 +86,26 @@ def analyse(
     run, start=None, end=None, gauges=None, period=None, crossing="down", segment=None, band=None,
     weights="equal",
 ):  # fmt: skip
-    """What the gauges of a run say.
+    """What the gauges of a run tell of the waves.
 
     Parameters
     ----------
     run : mpslab.analysis.results.Run
         Finished or not.
     start, end : float [s], optional
-        The window. By default as of `mpslab.analysis.windows`: until the last reading, from when
-        the waves have come to all gauges; and of the reflection, from when reflected waves are
-        back, if the run goes on for five periods from then.
+        The window. By default (`mpslab.analysis.windows`) it begins when the waves have come to all
+        gauges and ends with the last reading; for the reflection it begins when reflected waves are
+        back, if five periods are then left.
     gauges : sequence of str, optional
-        Those that the reflection is taken from; by default as of `mpslab.analysis.arrays.most`.
+        Those that the reflection is taken from; by default `mpslab.analysis.arrays.most`.
     period : float [s], optional
-        Take the waves as regular ones of this period; by default the wavemaker's, if it is one for
-        regular waves.
+        Take the waves as regular ones of this period; by default that of a wavemaker for regular
+        waves.
     crossing : str
         "down" or "up": the direction in which waves cross the mean level.
     segment : float [s], optional
-        Of the spectra of a sea; by default 20 peak periods, or half the window if it is short.
+        Length of the segments for the spectra of a sea; by default 20 peak periods, or half the
+        window if it is short.
     band : (float, float) [Hz], optional
         Frequencies that heights and periods are taken from; by default from a third of the peak
         frequency to six times it.
@@ -118,7 +119,7 @@ def analyse(
     Raises
     ------
     ValueError
-        Of bad input, in one line.
+        For bad input, in one line.
     """
     known = _Known(run, period)
     rows = known.line(gauges)
@@ -187,9 +188,9 @@ class _Known:
     series : structured array
         Its gauges, which have the names `names`, places `x` and still depths `depth`.
     level, gravity, last
-        Of the still water [m], [m/s2], and the time of the last reading [s].
+        Level of the still water [m], gravity [m/s2], and the time of the last reading [s].
     period : float [s] or None
-        Of the waves, where it is known.
+        Of the waves, if it is known.
     whole : float [s] or None
         The same, if the waves are regular.
     arrival : mpslab.analysis.windows.Arrival or None
@@ -230,7 +231,7 @@ class _Known:
         return arrays.asked(wanted, self.names, self.x, self.depth)
 
     def window(self):
-        """The window that nobody asked for."""
+        """The window to take if the user asks for none."""
         wet = self.depth > 0.0
         if self.arrival:
             return self.arrival.window(self.x[wet], self.last)
@@ -240,7 +241,7 @@ class _Known:
         return windows.from_readings(self.series, self.level, names)
 
     def back(self, rows, window):
-        """The window of the reflection, and a note or none."""
+        """The window of the reflection, and a note, which may be empty."""
         if not self.arrival or not rows:
             return window, ""
         far = coast.Site(self.case, self.level).place
@@ -263,7 +264,7 @@ def _peak_period(seen):
         spectrum.welch(seen.elevation[:, k], seen.step, half) for k in np.flatnonzero(seen.wet)
     ]
     mean = np.mean([one.density for one in found], axis=0)
-    mean[:2] = 0.0  # what takes as long as a segment
+    mean[:2] = 0.0  # the mean, and what takes as long as a segment
     if not mean.max() > 0.0:
         raise ValueError("no waves: the levels at all gauges stay as they are")
     return float(1.0 / found[0].frequency[np.argmax(mean)])
@@ -296,11 +297,11 @@ def _segment(segment, period, seen):
 
 
 def _of_gauge(seen, k, whole, length, band, crossing):
-    """Spectrum, waves one by one and numbers of a wet gauge."""
+    """Spectrum, single waves and numbers of a wet gauge."""
     elevation = seen.elevation[:, k]
     duration = len(elevation) * seen.step
     row = {"mean": elevation.mean()}
-    if whole:  # a few whole periods have a trend of their own, which is none
+    if whole:  # a few whole periods seem to have a trend, which must not be taken off
         level = elevation - row["mean"]
         found = spectrum.of_periods(level, seen.step)
         row |= dict(zip(AMPLITUDES, np.abs(_amplitudes(seen, k, whole)), strict=True))

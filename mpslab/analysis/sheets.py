@@ -16,10 +16,10 @@ MILLIMETRES = ("mean", "Hm0", "Hmean", "H1/3", "H1/10", "Hmax", "a1", "a2", "a3"
 def write(sea, folder):
     """Write the tables of a sea state into a folder.
 
-    ``gauges.csv``, ``waves.csv`` (one by one), ``spectra.csv`` (with their 95 % bands; of regular
-    waves without), ``reflection.csv``, ``runups.csv``, ``overtopping.csv`` (its events) and
-    ``walls.csv`` if there are any, and ``sea.json``, which has all but the single waves and the
-    spectra.
+    ``gauges.csv``; ``waves.csv``, the single waves; ``spectra.csv``, with 95 % bands unless the
+    waves are regular; ``reflection.csv``, ``runups.csv``, ``overtopping.csv`` (its events) and
+    ``walls.csv``, if there is anything to write; and ``sea.json``, which has everything but single
+    waves and spectra.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def _reflection(found):
 
 
 def _cells(row):
-    """Entries of a row; nothing in place of NaN."""
+    """Entries of a row, empty in place of NaN."""
     return ["" if cell != cell else cell for cell in (_bare(c) for c in row)]
 
 
@@ -87,7 +87,7 @@ def _bare(value):
 
 
 def as_dict(sea):
-    """All of a sea state but its series: windows, gauges, reflection, notes; a dict."""
+    """A sea state without its series, a dict: windows, gauges, reflection, notes."""
     found = sea.reflection
     return {
         "run": str(sea.run.folder),

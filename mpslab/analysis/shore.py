@@ -7,14 +7,14 @@ import numpy as np
 
 from mpslab.analysis import crossings
 
-SHARE = 0.02  # of the incident waves, that reach R2%
-FEW_RUNUPS = 500  # waves that R2% wants
-RIPPLE = 0.1  # times 4 standard deviations: what does not pass the mean by it is no wave
-GAP = 0.5  # periods at least from the peak of one event to that of the next
-VALLEY = 0.5  # times the smaller peak: between two events the flow falls below it
+SHARE = 0.02  # of the incident waves reach R2%
+FEW_RUNUPS = 500  # waves: with fewer, R2% is uncertain
+RIPPLE = 0.1  # times 4 standard deviations: what does not pass the mean by as much is no wave
+GAP = 0.5  # periods: least time from the peak of one event to that of the next
+VALLEY = 0.5  # times the smaller of two peaks: between two events the flow falls below that
 SMOOTHED = 0.2  # periods over which the flow is averaged before its peaks are looked for
 LEAST = 3  # particles of an event: fewer are drops
-RESOLVED = 4.0  # spacings of a layer that is to be trusted
+RESOLVED = 4.0  # spacings: a thinner layer is not to be trusted
 
 
 @dataclass(frozen=True)
@@ -28,12 +28,12 @@ class Runup:
     peaks : (waves,) structured array
         "time" [s] and "level" [m] of each run-up.
     mean, highest, r2 : float [m]
-        Of the peaks; `r2` is reached by 2 % of the incident waves, NaN of regular ones.
+        Of the peaks; `r2` is reached by 2 % of the incident waves, NaN for regular ones.
     fitted : bool
-        Whether `r2` is that of Rayleigh's distribution with the mean square of the peaks: in fewer
-        than 50 waves the highest is less rare than that.
+        Whether `r2` is that of Rayleigh's distribution with the mean square of the peaks: among
+        fewer than 50 waves even the highest is reached by more than 2 %.
     crest : bool
-        Whether the water has come to the crest of the slope, where there is no higher level.
+        Whether the water has come to the crest of the slope, above which no level can be read.
     """
 
     name: str
@@ -48,20 +48,20 @@ class Runup:
 
 @dataclass(frozen=True)
 class Overtopped:
-    """What has passed a plane in the window, onwards less back, on each metre across.
+    """What has passed a plane in the window, onwards less back, for each metre across.
 
     Attributes
     ----------
     name : str
     freeboard : float [m]
-        From still water up to the highest ground before the plane.
+        From still water up to the highest ground in front of the plane.
     volume : float [m3/m]
     discharge, quantum : float [m2/s]
-        The mean; and that of a single particle in the window.
+        The mean; and the mean if a single particle had passed in the window.
     events : (events,) structured array
-        "time" [s] of the largest flow, "volume" [m3/m], "layer" [m] and "speed" [m/s], their means
-        weighted with the flow. Between two events, half a period apart or more, the flow falls
-        below half of the smaller one's peak; drops that come later belong to the event before.
+        "time" [s] of the largest flow, "volume" [m3/m], and the means, weighted with the flow, of
+        "layer" [m] and "speed" [m/s]. Two events are half a period apart or more, and between them
+        the flow falls below half of the smaller peak; late drops belong to the event before.
     largest : float [m3/m]
     share : float
         Events over incident waves.
@@ -87,7 +87,7 @@ class Overtopped:
 
 @dataclass(frozen=True)
 class Pushed:
-    """The force of the waves on an upright wall, along the tank and beyond that of still water.
+    """The force of the waves on an upright wall, along the tank, without that of still water.
 
     Attributes
     ----------
@@ -120,7 +120,7 @@ def runup(name, time, level, window, thickness, waves, top, regular):
     ----------
     name : str
     time, level : (n,) float64 [s], [m]
-        Of the water's edge above still water; NaN where there is none.
+        Level of the water's edge above still water; NaN if there is no edge.
     window : mpslab.analysis.windows.Window
     thickness : float [m]
     waves : float
@@ -146,13 +146,13 @@ def runup(name, time, level, window, thickness, waves, top, regular):
 
 
 def _peaks(time, values, window, name):
-    """When and how large the largest value of each wave is, by up-crossings of the mean."""
+    """Time and size of the largest value in each wave, from one up-crossing of the mean on."""
     kind = [("time", float), (name, float)]
     inside = (time >= window.start) & (time <= window.end)
     if not inside.any():
         return np.zeros(0, kind)
     found = []
-    # The waves of the whole record: one that the window cuts has its peak in it or not.
+    # Waves are found in the whole record: a wave that the window cuts counts if its peak is inside.
     for wave in crossings.waves(time, values - values[inside].mean(), "up", RIPPLE):
         rows = np.flatnonzero((time >= wave["time"]) & (time <= wave["time"] + wave["period"]))
         row = rows[np.argmax(values[rows])]
@@ -162,7 +162,7 @@ def _peaks(time, values, window, name):
 
 
 def _rayleigh(high, waves):
-    """Level that 2 % of the waves exceed, if those of the peaks (n,) are Rayleigh's."""
+    """Level that 2 % of the waves exceed, if the peaks (n,) have Rayleigh's distribution."""
     often = len(high) / (SHARE * waves)
     square = np.mean(np.maximum(high, 0.0) ** 2)
     return np.sqrt(square * np.log(often)) if often > 1.0 else 0.0
@@ -213,7 +213,7 @@ def overtopped(name, table, window, freeboard, waves, period, particle, width, s
 
 
 def _events(table, name, passed, period, particle):
-    """Events, by the peaks of the flow; a table with a row for each."""
+    """The events, by the peaks of the flow: a table with a row for each."""
     from scipy.signal import find_peaks
 
     step = float(np.median(np.diff(table["time"]))) if len(passed) > 1 else period
@@ -247,10 +247,10 @@ def pushed(name, table, before, window, still, width, expected):
     table : structured array
         Rows of forces.csv.
     before : float [s]
-        Until when no wave has come to the wall.
+        Up to this time no wave has come to the wall.
     window : mpslab.analysis.windows.Window
     still : float [N]
-        Force of still water, where the table has no 16 rows before that.
+        Force of still water, to be taken if the table has fewer than 16 rows before that time.
     width : float [m]
         Of the wall; 1 in 2-D.
     expected : mpslab.analysis.goda.Load or None

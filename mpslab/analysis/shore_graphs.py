@@ -9,7 +9,7 @@ NAMES = ("runup", "overtopping", "walls")
 
 
 def draw(sea):
-    """Draw what there is, within the style of `mpslab.analysis.graphs`.
+    """Draw what there are numbers for, within the style of `mpslab.analysis.graphs`.
 
     Yields
     ------
@@ -63,7 +63,7 @@ def draw_overtopping(sea):
 
 
 def draw_walls(sea):
-    """The force of the waves on each wall against time, with Goda's."""
+    """The force of the waves on each wall against time, with that of Goda."""
     figure, axes = _axes(sea, len(sea.coast.pushed), "Force of the waves on upright walls")
     table = sea.run.table("forces")
     for ax, one in zip(axes, sea.coast.pushed, strict=True):

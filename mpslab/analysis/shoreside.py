@@ -31,7 +31,7 @@ def tables(coast):
 
 
 def as_dict(coast):
-    """All but the single waves, for JSON."""
+    """Everything but the single waves, for JSON."""
     return {
         "shore window": {
             "start [s]": coast.window.start,
@@ -68,7 +68,7 @@ def as_dict(coast):
 
 
 def lines(coast):
-    """In words."""
+    """Run-up, overtopping and walls in words, a line each."""
     told = [_runup(one, coast.hunt) for one in coast.runups]
     told += [line for one in coast.overtopped for line in _overtopped(one)]
     told += [_pushed(one) for one in coast.pushed]

@@ -1,4 +1,4 @@
-"""Pictures of the particles: the tank at some times, and the breaker from near by."""
+"""Pictures of the particles: the tank at some times, and the breaker from close up."""
 
 from dataclasses import dataclass
 
@@ -53,7 +53,7 @@ def middle_slice(time, frame, spacing, width):
     """
     seen = np.ones(len(frame["kind"]), bool)
     if width:
-        # Neither half-way between layers nor on one, be their number even or odd.
+        # Neither half-way between two layers nor on a layer, whether their number is even or odd.
         seen = np.abs(frame["position"][:, 1] - 0.5 * width + 0.25 * spacing) < 0.5 * spacing
     velocity, pressure = (frame[name][seen] if name in frame else None
                           for name in ("velocity", "pressure"))  # fmt: skip
@@ -94,9 +94,9 @@ def draw_tank(frames, case, field="speed"):
 
 
 def draw_breaker(frames, case):
-    """The wave from near by: frames about the first in which it overturns.
+    """The wave from close up: frames around the first in which it overturns.
 
-    If no wave throws a jet, frames about the first in which one's front stands upright.
+    If no wave throws a jet, frames around the first in which a front stands upright.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def draw_breaker(frames, case):
 
     Returns
     -------
-    matplotlib Figure, or None if no wave does, or the frames hold no velocity
+    matplotlib Figure, or None if there is no such front, or the frames hold no velocity
     """
     fronts = [_front(piece, case["particles"]["spacing"]) for piece in _slices(frames, case)]
     index = _moment(fronts)
@@ -127,13 +127,13 @@ def _front(piece, spacing):
 
 
 def _moment(fronts):
-    """Number of the first frame with a jet, or else of the first with an upright front."""
+    """Number of the first frame with a jet; if none has one, of the first with an upright front."""
     breaking = [k for k, front in enumerate(fronts) if front]
     return next((k for k in breaking if fronts[k].overturns), min(breaking, default=None))
 
 
 def _box(slices, case):
-    """Limits ((x, x), (z, z)) that hold the walls along x, and in z obstacles and water.
+    """Limits ((x, x), (z, z)) that hold the walls in x, and obstacles and water in z.
 
     High spray does not count.
     """

@@ -15,10 +15,10 @@ class Spectrum:
     Attributes
     ----------
     frequency : (n,) float64 [Hz]
-        In even steps from 0 on.
+        In equal steps from 0 on.
     density : (n,) float64 [m2 s]
     freedom : float
-        Degrees of freedom of each density: it is scattered as chi-squared with so many is.
+        Degrees of freedom of the chi-squared distribution that each density has.
     """
 
     frequency: np.ndarray
@@ -27,13 +27,13 @@ class Spectrum:
 
     @property
     def step(self):
-        """Distance of the frequencies [Hz]."""
+        """Step of the frequencies [Hz]."""
         return float(self.frequency[1])
 
     def band(self, confidence=0.95):
         """Lower and upper edge, (n,) each [m2 s], between which the true density lies.
 
-        With the probability `confidence`, at each frequency by itself:
+        It does so with the probability `confidence`, at each frequency by itself:
         nu S / chi2(nu, 1 - q) and nu S / chi2(nu, q), q = (1 - confidence) / 2.
         """
         rest = 0.5 * (1.0 - confidence)
@@ -55,9 +55,9 @@ def welch(elevation, step, length):
     Parameters
     ----------
     elevation : (n,) float64 [m]
-        At even times.
+        In equal steps of time.
     step : float [s]
-        Between these times.
+        Between two readings.
     length : int
         Readings in a segment, from 4 to n.
 
@@ -83,9 +83,9 @@ def of_periods(elevation, step):
     Parameters
     ----------
     elevation : (n,) float64 [m]
-        At even times, over a whole number of periods.
+        In equal steps of time, over a whole number of periods.
     step : float [s]
-        Between these times.
+        Between two readings.
 
     Returns
     -------
@@ -125,18 +125,18 @@ def parameters(spectrum, low, high, duration):
     Returns
     -------
     dict of str to float
-        "Hm0" = 4 sqrt(m0) [m]. "Hm0 scatter", its standard error over that: 0.5 sqrt(integral of
-        S^2 df / duration) / m0, of one such record of a Gaussian sea. "Hm0 slow" [m], of what lies
-        below the band. "Tp" [s], 1 over the mean frequency weighted with S^4 (Young 1995): it
-        scatters less than the highest point, and is shorter by 1 % for JONSWAP (gamma = 3.3) and 5
-        % for Pierson-Moskowitz.
+        "Hm0" = 4 sqrt(m0) [m]. "Hm0 scatter", the standard error of Hm0 over Hm0, for one such
+        record of a Gaussian sea: 0.5 sqrt(integral of S^2 df / duration) / m0. "Hm0 slow" [m], of
+        the frequencies below the band. "Tp" [s], 1 over the mean frequency weighted with S^4 (Young
+        1995): it scatters less than the period of the highest point, and is shorter by 1 % for
+        JONSWAP (gamma = 3.3) and 5 % for Pierson-Moskowitz.
         "Tm-1,0" = m-1 / m0, "Tm01" = m0 / m1 and "Tm02" = sqrt(m0 / m2) [s].
     """
     m = {order: moment(spectrum, order, low, high) for order in (-1, 0, 1, 2)}
     slow = moment(spectrum, 0, 0.5 * spectrum.step, low - 0.5 * spectrum.step)
     part = spectrum.within(low, high)
     weight = (spectrum.density[part] / spectrum.density[part].max()) ** 4
-    # The square of an estimate is too large on average by 1 + 2 / nu.
+    # On average the square of an estimate is 1 + 2 / nu times too large.
     square = np.sum(spectrum.density[part] ** 2) * spectrum.step / (1.0 + 2.0 / spectrum.freedom)
     return {
         "Hm0": 4.0 * np.sqrt(m[0]),

@@ -1,4 +1,4 @@
-"""The window of time that the waves of a run are looked at in."""
+"""The window of time in which the waves of a run are looked at."""
 
 from dataclasses import dataclass
 
@@ -6,9 +6,9 @@ import numpy as np
 
 from mpslab.theory.waves import group_celerity
 
-SETTLED = 1.5  # periods after the ramp until waves are steady where they have come
-SLOW = 1.5  # times the peak frequency: the slower waves of a sea that are waited for
-FIRST = 0.1  # share of the largest elevation at a gauge that tells a wave
+SETTLED = 1.5  # periods, after the ramp and the group's way to a place, until waves are steady
+SLOW = 1.5  # times the peak frequency: the slowest waves of a sea that are waited for
+FIRST = 0.1  # share of the largest elevation at a gauge from which on it is a wave
 FEWEST = 5.0  # periods for which reflected waves have to be there
 
 
@@ -64,8 +64,8 @@ def asked(start, end, last):
 class Arrival:
     """When the waves of a wavemaker have come to a place, by linear theory.
 
-    That is 1.5 periods after its ramp (its soft start) and the time that the group takes; of a sea,
-    the group of 1.5 times the peak frequency.
+    That is 1.5 periods after its ramp (the soft start) plus the time that the group takes; for a
+    sea, the group of 1.5 times the peak frequency.
 
     Attributes
     ----------
@@ -86,11 +86,11 @@ class Arrival:
         return cls(period, ramp, group_celerity(slowest, depth, gravity))
 
     def at(self, way):
-        """Time at which waves have gone so far [s], from `way` [m]."""
+        """Time [s] at which the waves have gone a way [m]."""
         return self.ramp + SETTLED * self.period + way / self.speed
 
     def window(self, places, last):
-        """From when the waves have come to all places (n,) [m] until the last reading [s].
+        """The window from the arrival at the last of some places (n,) [m] to the last reading [s].
 
         Raises
         ------
@@ -113,9 +113,9 @@ class Arrival:
         Returns
         -------
         Window
-            All of it, if less than five periods are left.
+            The whole window, if less than five periods are left.
         note : str
-            That it is all of it, or empty.
+            Says so if it is the whole window; else empty.
         """
         start = max(self.at(2.0 * far - near), window.start)
         if window.end - start >= FEWEST * self.period:

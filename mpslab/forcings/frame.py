@@ -6,8 +6,8 @@ degrees) and rho = r - c, the acceleration of the water in the tank's frame is
 
     R(-a) (g - X'') - a'' J rho + a'^2 rho - 2 a' J u
 
-gravity turned and less the acceleration of the axis, then Euler's, the centrifugal and Coriolis's
-share.  Gravity itself is a forcing of its own; here stands what differs from it.
+The first part is gravity, turned, less the acceleration of the axis; then come Euler's, the
+centrifugal and Coriolis's acceleration.  Gravity is a forcing of its own; this one gives the rest.
 """
 
 import csv
@@ -46,7 +46,7 @@ def make(case):
 def strongest(case):
     """Largest acceleration of water at rest in the tank, by gravity and the tank's motion [m/s2].
 
-    Of the corners of the water as it is laid out, until the end of the run.
+    Taken at the corners of the water as it is laid out, until the end of the run.
     """
     gravity, inertia = case.fluid.gravity, make(case)
     if inertia is None:

@@ -1,8 +1,8 @@
-"""Zones in which the water is led to rest: [[sponge]].
+"""Zones in which the water is brought to rest: [[sponge]].
 
-The force is - r u. r grows from 0, where the zone begins, as the square of the way into it; where
-it ends it is `strength` times the wave's angular frequency. A step takes no more than all of u,
-however large r is.
+The acceleration is - r u. r grows from 0, where the zone begins, with the square of the distance
+into it; where the zone ends, r is `strength` times the wave's angular frequency. However large r
+is, a step takes no more than all of u.
 """
 
 import math
@@ -46,7 +46,7 @@ def _rate(case, one):
 
 
 def strength_of(case, one):
-    """Damping at the end of a zone in angular frequencies of the wave [-]."""
+    """r at the end of a zone, in angular frequencies of the wave [-]."""
     return one.strength or sponge.best(*_before_a_wall(case, one))
 
 
@@ -58,7 +58,7 @@ def reflection(case, one):
 
 
 def _before_a_wall(case, one):
-    """Frequency, depth, gravity, length of a zone, and the way from its end to the wall."""
+    """Frequency, depth, gravity, length of a zone, and the distance from its end to the wall."""
     behind = case.tank.length - one.end if one.end > one.start else one.end
     depth = case.tank.depth - float(case.tank.bed_height(one.start))
     return _rate(case, one), depth, case.fluid.gravity, abs(one.end - one.start), behind

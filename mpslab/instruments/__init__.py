@@ -16,7 +16,7 @@ from mpslab.core.keys import require, shown
 from mpslab.core.schedule import check_interval
 
 FIRST = ("time [s]", "step")  # what the first column may be: it tells which rows a restart drops
-FORBIDDEN = "/\\."  # the last stands between name and key in a checkpoint
+FORBIDDEN = "/\\."  # the dot stands between name and key in a checkpoint
 
 
 class Instrument:
@@ -25,13 +25,13 @@ class Instrument:
     Attributes
     ----------
     name : str
-        Of its table, ``NAME.csv``.
+        Name of its table, ``NAME.csv``.
     columns : sequence of str
         Headings with their units, "level [m]"; the first is "time [s]" or "step".
     interval : float [s]
-        Time between readings, 0 for every step; None where it is the loop that asks.
+        Time between readings, 0 for every step; None if it is read only when the run asks for it.
     words : dict of str to int
-        Columns of words, by their headings, and how many letters they may have.
+        Headings of the columns that hold words, and how many letters a word may have.
     """
 
     interval = 0.0
@@ -41,16 +41,16 @@ class Instrument:
         """Called once, before the first step and the first reading, also when a run goes on."""
 
     def read(self, flow):
-        """What it reads now: rows, a list of tuples with an entry for each column.
+        """The rows that it reads now: a list of tuples with an entry for each column.
 
-        All ranks call it at the same time, and have to return the same. Mostly that is one row;
-        none where there is nothing to say. At t = 0 no step has been done yet.
+        All ranks call it at the same time, and have to return the same rows: mostly one, none if
+        there is nothing to say. At t = 0 no step has been done yet.
 
         Parameters
         ----------
         flow : mpslab.run.flow.Flow
-            Its particles are those that this rank owns; ``flow.domain.total(values)`` adds (n,)
-            values of them over all ranks, to the same bits on any number of them.
+            Its particles are those that this rank owns; ``flow.domain.total(values)`` adds values
+            (n,), one for each of them, over all ranks, to the same bits on any number of ranks.
         """
         raise NotImplementedError
 
@@ -76,7 +76,8 @@ def with_own(case, own):
     Raises
     ------
     ValueError
-        If one of the user's is none, or has a name, columns or an interval that it cannot have.
+        If one of the user's is no Instrument, or has a name, columns or an interval that it cannot
+        have.
     """
     found = of(case)
     for number, one in enumerate(own):
@@ -108,7 +109,7 @@ def _check_columns(key, columns):
 
 
 def check(case):
-    """Raise CaseError if what a case has of an instrument does not fit it."""
+    """Raise CaseError if an instrument cannot read what the case asks of it."""
     for name in plugins.names("instruments"):
         module = plugins.load("instruments", name)
         if hasattr(module, "check"):
@@ -116,7 +117,7 @@ def check(case):
 
 
 def check_names(table, items):
-    """Raise CaseError if two tables of a kind have the same name, or one that of the times."""
+    """Raise CaseError if two tables of a kind have the same name, or one is named "time"."""
     first = {}
     for i, item in enumerate(items):
         key = f"{table}.{i}.name"

@@ -1,4 +1,4 @@
-"""Readings of particles near a place, wherever they are owned."""
+"""Readings of the particles near a place, whichever rank owns them."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from mpslab.kernels import column
 
 
 def read_near(flow, places, reach, read):
-    """What `read` makes of the particles near some places, the same on all ranks.
+    """What `read` returns for the particles near some places, the same on all ranks.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ def read_near(flow, places, reach, read):
 
 
 def read_of(flow, rows, read):
-    """As `read_near`, of some rows of this rank's particles, by mask or numbers."""
+    """As `read_near`, for some rows of this rank's particles: a mask, or their numbers."""
     domain = flow.domain
     particles = domain.gather(flow.particles.take(rows))
     return domain.from_all(None if particles is None else read(particles))[0]

@@ -8,7 +8,7 @@ from mpslab.instruments import Instrument, check_names
 from mpslab.models.reaction import Reaction
 from mpslab.solids import parts
 
-MOST = 100  # forces of a case
+MOST = 100  # entries in a case
 BALANCE = "water"  # what the columns of the balance begin with
 
 
@@ -18,7 +18,7 @@ def make(case):
 
 
 def check(case):
-    """Raise CaseError if a force is asked for that there is not."""
+    """Raise CaseError if the run cannot tell a force that the case asks for."""
     if len(case.force) > MOST:
         raise CaseError(f"force has {len(case.force):,} entries: must have at most {MOST:,}")
     check_names("force", case.force)
@@ -39,8 +39,8 @@ def check(case):
 class Forces(Instrument):
     """Mean force and moment on each solid over the time since the last row, and the balance.
 
-    The momentum that the water loses in this time, divided by it, and gravity on the water are
-    together the force on all solids, to rounding.
+    The momentum that the water loses in this time, divided by the time, plus the weight of the
+    water is the force on all solids, to rounding.
     """
 
     name = "forces"
@@ -60,11 +60,11 @@ class Forces(Instrument):
         )
 
     def begin(self, flow):
-        """Have the steps tell what solids give the water."""
+        """Have the steps note what the solids give to the water."""
         flow.reaction = self.reaction
 
     def read(self, flow):
-        """A row, and begin anew; none before the first step."""
+        """The means since the last row; no row before the first step."""
         found = self.reaction
         if found.span == 0.0:
             return []
@@ -74,7 +74,7 @@ class Forces(Instrument):
         return [row]
 
     def state(self):
-        """What was added up since the last row."""
+        """What has been added up since the last row."""
         return {"span": self.reaction.span, "sums": self.reaction.sums}
 
     def restore(self, state):

@@ -10,7 +10,7 @@ def make(case):
 
 
 class Lost(Instrument):
-    """Number, place and side of each particle that is taken out, as long as it is still there."""
+    """Number, place and side of each particle that leaves; read before it is taken out."""
 
     name = "lost"
     columns = LOST_COLUMNS

@@ -13,7 +13,7 @@ from mpslab.instruments._near import within
 from mpslab.solids import filling, obstacles
 
 REACH = 3.0  # spacings: no particle goes so far in a step
-BEFORE = 2.0  # spacings before the plane, where the layer is read: behind it water may be drained
+BEFORE = 2.0  # spacings in front of the plane, where the layer is read: behind it water may drain
 
 
 def make(case):
@@ -35,7 +35,7 @@ def check(case):
 
 
 def _furthest(case):
-    """How far the water of the start reaches, but for half a spacing [m]."""
+    """x of the foremost water at the start, to half a spacing [m]."""
     boxes = [(box.start, box.end) for box in case.water] or [filling.filled(case)]
     found = [0.0]
     for box in boxes:
@@ -48,7 +48,7 @@ def _furthest(case):
 class Overtopping(Instrument):
     """Volume that has passed each plane since the start, onwards and back, and the layer there.
 
-    Particles are counted in each step, by their numbers, so that volumes are right to a particle:
+    Particles are counted in each step, each by its gid, so that volumes are right to a particle:
     onwards less back is what is missing in front of the plane.
 
     Attributes
@@ -75,7 +75,7 @@ class Overtopping(Instrument):
         self.seen = self._near(flow)
 
     def read(self, flow):
-        """Count what has passed in a step; a row when it is time for one."""
+        """Count what has passed in the last step; a row when one is due."""
         if flow.done:
             self._count(flow)
             if not due(self.every, flow.done["before"], flow.time):
@@ -99,7 +99,7 @@ class Overtopping(Instrument):
         self.seen = now
 
     def _near(self, flow):
-        """Numbers and x [m] of the water near a plane, of all ranks."""
+        """gid and x [m] of the water particles near a plane, from all ranks."""
         p, reach = flow.particles, REACH * flow.stencil.spacing
         rows = within(p, [plane.x for plane in self.planes], reach)
         rows = rows[p.fluid[rows]]
@@ -107,7 +107,7 @@ class Overtopping(Instrument):
         return [np.concatenate(parts) for parts in zip(*found, strict=True)]
 
     def _layer(self, flow, x):
-        """Thickness [m] of the water just before a plane, by its volume, and its speed [m/s]."""
+        """Thickness [m] of the water just in front of a plane, by volume, and its speed [m/s]."""
         p, spacing = flow.particles, flow.stencil.spacing
         off = (p.position[:, 0] - x) / spacing + BEFORE
         weight = np.where(p.fluid, spline(off), 0.0)
@@ -118,7 +118,7 @@ class Overtopping(Instrument):
         return particle_volume(flow.stencil) / spacing / self.width * total, speed
 
     def state(self):
-        """How many have passed."""
+        """How many particles have passed."""
         return {"counts": self.counts}
 
     def restore(self, state):

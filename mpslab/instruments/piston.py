@@ -1,11 +1,11 @@
-"""What an absorbing piston goes by: the water level in front of it, in each step."""
+"""What an absorbing piston reads in each step: the water level in front of it."""
 
 import numpy as np
 
 from mpslab.instruments import Instrument
 from mpslab.solids.absorption import EXPECTED, LEVEL
 
-EDGE = 1.5  # spacings over which the gauge fades out, to either side of its reach
+EDGE = 1.5  # spacings over which the gauge fades out, on either side of the end of its reach
 
 
 def make(case):
@@ -16,8 +16,8 @@ def make(case):
 class PistonGauge(Instrument):
     """Level of the water beside the piston's face, by the volume of its particles.
 
-    All the water over the reach of the gauge counts, from bed to surface, so that a level is read
-    of which the disorder of single particles at the surface is no part.
+    All the water within the reach of the gauge counts, from bed to surface, so that the disorder of
+    single particles at the surface does not show in the level.
     """
 
     name = "piston"
@@ -28,7 +28,7 @@ class PistonGauge(Instrument):
         self.bed = case.tank.bed[0][1]
 
     def read(self, flow):
-        """A row: where the face is, how much of that is absorption, level read and expected."""
+        """A row: where the face is, how much of that is absorption, the level read and expected."""
         paddle, time = flow.solids.piston.paddle, flow.time
         face = flow.solids.face(time)
         level = self.bed + self._depth(flow, face, paddle.window)

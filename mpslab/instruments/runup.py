@@ -16,7 +16,7 @@ def make(case):
 
 
 def check(case):
-    """Raise CaseError if the water has no slope to run up, or one cannot be read."""
+    """Raise CaseError if the water has no slope to run up, or a run-up cannot be read."""
     check_names("runup", case.runup)
     spacing, tank = case.particles.spacing, case.tank
     require(

@@ -1,4 +1,4 @@
-"""The steps: what each of them took, and what the water holds after it."""
+"""The steps: what each step took, and what the water holds after it."""
 
 from mpslab.core import diagnostics
 from mpslab.core.columns import STEP_COLUMNS

@@ -3,10 +3,10 @@ from libc.math cimport floor
 
 
 cdef inline int along(double x, double lower, double per, int count) noexcept nogil:
-    """Cell of a place along an axis; the outermost one outside, the first for not-a-number.
+    """Cell of a place along an axis; outside, the outermost cell; the first for not-a-number.
 
-    There are so many per metre.  A product, and no quotient, which fast mathematics may round one
-    way here and another way there.
+    `per` is how many cells there are in a metre: a product, because fast mathematics may round a
+    quotient differently in different places.
     """
     cdef double c = floor((x - lower) * per)
     c = c if c > 0.0 else 0.0
@@ -14,7 +14,7 @@ cdef inline int along(double x, double lower, double per, int count) noexcept no
 
 
 cdef inline double folded(double y, double width) noexcept nogil:
-    """A place across the tank brought back into the period; width = 0 means no periodicity."""
+    """A place across the tank, brought back into the period; width = 0 for none."""
     return y - width * floor(y / width) if width > 0.0 else y
 
 
@@ -22,7 +22,7 @@ def assign(const double[:, ::1] position, const double[::1] lower, const double[
            const int[::1] count, double width, int[::1] cell, int[::1] box):
     """Cell number of each particle, z fastest, within the least box of cells that holds them all.
 
-    width : period along y, 0 for none; the box is then as wide
+    width : period along y, 0 for none; with a period, the box takes in all of it
     box : (3,) out, cells of the box along each axis
     """
     cdef Py_ssize_t i
@@ -63,7 +63,7 @@ def count(const int[::1] cell, int[::1] start):
 
 
 def sort(const int[::1] cell, const long long[::1] gid, int[::1] start, int[::1] order):
-    """order = the particles cell by cell, in a cell by gid; `start`, as of `count`, is used up."""
+    """order = the particles cell by cell, in a cell by gid; `start` comes from `count`, changes."""
     cdef Py_ssize_t i, place
     cdef int c, first
     with nogil:
@@ -81,7 +81,7 @@ def sort(const int[::1] cell, const long long[::1] gid, int[::1] start, int[::1]
 
 
 def ascend(const int[::1] cell):
-    """Whether no cell is before that of the particle before."""
+    """Whether the cells ascend from each particle to the next, or stay."""
     cdef Py_ssize_t i
     cdef bint sorted_ = True
     with nogil:

@@ -1,7 +1,7 @@
 """The coarse system of the deflation: groups of rows, and a band of couplings between groups.
 
-With Z the (rows, groups) matrix that is one where a row belongs to a group and zero elsewhere, A Z is
-kept in compressed rows and Z^T A Z as a band: band[g, half + h - g] couples g to h <= g.
+Z is the (rows, groups) matrix that is one where a row belongs to a group and zero elsewhere.  A Z
+is kept in compressed rows and Z^T A Z as a band: band[g, half + h - g] couples g to h <= g.
 """
 from cython cimport floating
 from libc.math cimport sqrt
@@ -12,12 +12,12 @@ def by_group(const int[::1] row, const int[::1] column, const floating[::1] valu
              int[::1] place, int[::1] start, int[::1] member, double[::1] entry):
     """A Z in the rows from begin to end: the couplings of each row, summed over the groups.
 
-    place : (groups,) scratch, all -1; where a group's sum lies, if it is past the row's begin
+    place : (groups,) scratch, all -1; where a group's sum lies, if not before the row's begin
     start : (m + 1,) out, begin of each row in `member` and `entry`
     member, entry : out, groups and sums, long enough
 
-    Returns the number of sums, and how many groups there are at most from a row's to one that it is
-    coupled to.
+    Returns the number of sums, and the largest difference between the number of a group that a row
+    is coupled to and that of the row's own group.
     """
     cdef Py_ssize_t i, k
     cdef int g, total = 0, half = 0
@@ -91,7 +91,7 @@ def condense(const int[::1] start, const int[::1] member, const double[::1] entr
 def factorise(double[:, ::1] band, double[::1] inverse):
     """Cholesky factor of a band, in place; `inverse` holds one over its diagonal.
 
-    A group that adds nothing to those before it is left out: its row and `inverse` are zero.
+    A group that depends on those before it is left out: its row and `inverse` are zero.
     """
     cdef Py_ssize_t i, j, k, low, half = band.shape[1] - 1
     cdef double total
@@ -100,7 +100,7 @@ def factorise(double[:, ::1] band, double[::1] inverse):
             for j in range(max(i - half, 0), i):
                 low = max(i - half, 0)
                 total = band[i, half + j - i]
-                # Both rows lie one after the other from `low` on.
+                # From `low` on both rows are contiguous.
                 for k in range(j - low):
                     total -= band[i, half + low - i + k] * band[j, half + low - j + k]
                 band[i, half + j - i] = total * inverse[j]

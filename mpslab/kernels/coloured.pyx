@@ -45,12 +45,13 @@ def factorise(const int[::1] first, int begin, int end, const int[::1] lower,
               double[::1] factor, double[::1] pivot, double[::1] work):
     """A ~ (I + L) D (I + L)^T without fill, no coupling dropped; `factor` turns from A into L.
 
-    begin, end : the slabs of this rank; of a black one beside them, only the couplings to this
-        rank's red rows are known, and needed
+    begin, end : the slabs of this rank; of a black slab beside them, only the couplings to this
+        rank's red rows are known, and no others are needed
     pivot : (m,) out, 1/D
-    work : (m,) scratch, all zero; a row spread out, so that absent entries add nothing
+    work : (m,) scratch, all zero; holds a whole row, so that absent entries add nothing
 
-    Returns the number of this rank's pivots below 1e-2 of their diagonal, put back to it.
+    Returns the number of this rank's pivots that came out below 1e-2 of their diagonal; each of
+    them was replaced by the diagonal.
     """
     cdef Py_ssize_t i, k, e
     cdef int colour, s, c, stop, replaced = 0
@@ -115,7 +116,7 @@ def backward(int colour, const int[::1] first, int begin, int end, const int[::1
 
 def hand_back(const int[::1] first, const int[::1] lower, const int[::1] middle,
               const int[::1] left, const double[::1] factor, double[::1] z):
-    """Take what the black rows contribute off the red ones, between the colours of `backward`."""
+    """Subtract what the black rows add to the red ones; between the two colours of `backward`."""
     cdef Py_ssize_t i, k
     cdef int s
     cdef double total

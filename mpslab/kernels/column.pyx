@@ -12,8 +12,8 @@ cdef inline double spline(double t) noexcept nogil:
 
 def around(const double[:, ::1] position, double spacing, double x, double y, double width,
            int[::1] near, double[::1] weight):
-    """Rows of the particles less than 1.5 spacings from a vertical line along x and y, and their
-    weights: splines of both distances, or of the first where all have the same y.
+    """Rows of the particles less than 1.5 spacings from a vertical line, along x and along y, and
+    their weights: splines of both distances, or of that along x if all have the same y.
 
     near, weight : (n,) out, filled from the beginning
 
@@ -49,7 +49,7 @@ def spread(const double[::1] height, const double[::1] weight, const unsigned ch
 
     height : (n,) above the first point [spacings]
     wet : (n,) whether a particle is fluid
-    points : to a spacing
+    points : how many there are to a spacing
     fluid, solid : (m,) sums, changed in place
     """
     cdef Py_ssize_t i, k, nearest, reach = 2 * points
@@ -72,12 +72,12 @@ def top(const double[::1] fluid, const double[::1] solid, int gap, double least_
     Between points, the excess of water over that half is linear; at the last point it is negative.
 
     fluid, solid : (m,) shares at the points
-    gap : points where water and solids together fill half of the room or more are of one part if
-        they are no farther apart than so many points
-    least_room : share of room that is taken to be left where it is less
+    gap : the connected part ends where so many points or more follow each other at which water and
+        solids together fill less than half
+    least_room : share of room that counts as left where the solids leave less
 
-    Returns the point below that place, and which part of the way to the next point it is above it;
-    -1 and not-a-number where there is no such place.
+    Returns the point below that place, and the share of the way from there to the next point;
+    -1 and not-a-number if there is no such place.
     """
     cdef Py_ssize_t k, last = -1, wet = -1
     cdef double excess, above, part = float("nan")
@@ -99,7 +99,7 @@ def top(const double[::1] fluid, const double[::1] solid, int gap, double least_
 
 def within(const double[:, ::1] position, const double[::1] starts, const double[::1] ends,
            int[::1] rows):
-    """rows = the particles that are, along the tank, between a start and its end [m].
+    """rows = the particles whose x lies between one of the starts and its end [m].
 
     starts, ends : (k,)
 

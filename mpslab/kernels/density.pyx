@@ -1,9 +1,9 @@
-"""How many neighbours a particle has, and who has one at the surface."""
+"""How many neighbours a particle has, and which particles are near the surface."""
 from mpslab.kernels.pair cimport FLUID
 
 
 def count(const int[::1] row, const float[:, ::1] offset, const int[::1] rows, int[::1] out):
-    """Neighbours of the particles `rows` inside the radius (the list may reach further)."""
+    """How many neighbours the particles `rows` have within the radius; the list may reach on."""
     cdef Py_ssize_t m, k
     cdef int near
     with nogil:
@@ -16,7 +16,7 @@ def count(const int[::1] row, const float[:, ::1] offset, const int[::1] rows, i
 
 def beside(const int[::1] row, const int[::1] other, const float[:, ::1] offset,
            const unsigned char[::1] mark, unsigned char[::1] out):
-    """Whether a particle or one of its neighbours inside the radius is marked.
+    """Whether a particle, or one of its neighbours within the radius, is marked.
 
     Marked particles have rows in the list.
     """

@@ -7,7 +7,7 @@ def by_pairs(const int[::1] row, const int[::1] other, const float[:, ::1] offse
              const float[::1] inverse, const double[::1] pressure, const double[::1] own,
              const signed char[::1] role, const unsigned char[::1] loaded, double factor,
              bint soft, double[:, ::1] out):
-    """factor sum_j (p_j + own_i) r_ij w/r^2 of the water, zero elsewhere; `soft` for w/r.
+    """factor sum_j (p_j + own_i) r_ij w/r^2 for water, 0 for solids; with `soft`, w/r for w/r^2.
 
     row, other, offset, inverse : pairs, see mpslab.kernels.measure
     own : (n,) [Pa]

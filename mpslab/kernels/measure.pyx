@@ -50,7 +50,7 @@ def measure(const double[:, ::1] position, const signed char[::1] role, const in
 
 def weigh(const int[::1] row, stencil, const float[:, ::1] measured, const float[::1] inverse,
           float[:, ::1] offset, double[:, ::1] first, double[:, :, ::1] second):
-    """As `measure`, of pairs that were measured with another stencil."""
+    """As `measure`, for pairs that were measured with another stencil."""
     cdef float radius = stencil.radius
     cdef Py_ssize_t i, k, a
     with nogil:
@@ -64,9 +64,9 @@ def weigh(const int[::1] row, stencil, const float[:, ::1] measured, const float
 
 cdef inline int part(Py_ssize_t i, const signed char[::1] role, const int[::1] row,
                      int[::1] other, int[::1] behind) noexcept nogil:
-    """Water first, then solids, each in the order of the list; returns where the solids begin.
+    """Put water first, then solids, each in the order of the list; returns where solids begin.
 
-    Most rows have no solids, and are left alone: writing costs more than looking.
+    Most rows have no solids, and are not written to: writing costs more than reading.
     """
     cdef int k, front = row[i], back = 0
     for k in range(row[i], row[i + 1]):
@@ -85,7 +85,7 @@ cdef inline int part(Py_ssize_t i, const signed char[::1] role, const int[::1] r
 cdef inline void lay_out(Py_ssize_t i, const double[:, ::1] position, const int[::1] row,
                          const int[::1] other, double width, float[:, ::1] offset,
                          float[::1] inverse) noexcept nogil:
-    """r_ij of a row, with 1 behind it; and r^2, where 1/r will stand."""
+    """r_ij of a row, with 1 as its fourth number; and r^2, in the place where 1/r will be."""
     cdef Py_ssize_t k
     cdef four r, here = ended(load(&position[i, 0]), -1.0)
     for k in range(row[i], row[i + 1]):
@@ -99,7 +99,7 @@ cdef inline void invert(Py_ssize_t begin, Py_ssize_t end, float floor,
                         float[::1] inverse) noexcept nogil:
     """1/r in place of r^2.
 
-    LANES at a time: what the last ones make behind the end of it, their own turn puts right.
+    LANES at a time; what this writes past the end is overwritten when the next rows are laid out.
     """
     cdef float square, one = 1, least = floor * floor
     cdef Py_ssize_t block, lane_
@@ -146,7 +146,7 @@ cdef inline void flatten(Py_ssize_t begin, Py_ssize_t end, float radius, double 
 cdef inline void add_up(Py_ssize_t i, const int[::1] row, float radius, float[:, ::1] offset,
                         const float[::1] inverse, double[:, ::1] first,
                         double[:, :, ::1] second) noexcept nogil:
-    """First and second moment of a row; w/r^2 takes its place behind r_ij.
+    """First and second moment of a row; w/r^2 becomes the fourth number, after r_ij.
 
     w = r_e/r - 1 inside the radius (Koshizuka & Oka 1996).
     """

@@ -1,4 +1,4 @@
-"""Correction matrix of the gradient: the inverse of the neighbours' second moment."""
+"""Correction matrix of the gradient: the inverse of the second moment of the neighbours."""
 
 
 def invert(const double[:, :, ::1] second, stencil, double least_determinant,
@@ -36,7 +36,7 @@ def invert(const double[:, :, ::1] second, stencil, double least_determinant,
 def without_fillers(const int[::1] row, const int[::1] solid, const int[::1] other,
                     const float[:, ::1] offset, const unsigned char[::1] loaded,
                     double[:, :, ::1] second):
-    """Take neighbours that carry no pressure out of second moments, in place."""
+    """Subtract neighbours that carry no pressure from the second moments, in place."""
     cdef Py_ssize_t i, k, a, b
     with nogil:
         for i in range(solid.shape[0]):

@@ -1,16 +1,16 @@
-"""Neighbour search over the cells of a grid, whose particles lie one after the other.
+"""Neighbour search over the cells of a grid; the particles are in the order of the cells.
 
 The search goes along x, row after row of cells.  From one cell to the next, the particles that may
-be neighbours change by one layer of cells: they lie in a scratch one after the other, and a layer
-is added at its end.
+be neighbours change by one layer of cells: they are copied into scratch, layer after layer, and
+each step adds a layer at the end.
 """
 from libc.string cimport memcpy
 
 from mpslab.kernels.lanes cimport near_eight, prepare_squeeze, squeeze
 
 cdef enum:
-    LANES = 8  # particles that are copied, and whose distances are taken, together
-    STRETCH = 16  # cells along x after which the rows found so far go to their places
+    LANES = 8  # particles that are copied together, and whose distances are taken together
+    STRETCH = 16  # cells along x after which the rows found so far are put into their places
 
 
 def search(const double[:, ::1] packed, const unsigned char[::1] active, const int[::1] start,
@@ -19,15 +19,17 @@ def search(const double[:, ::1] packed, const unsigned char[::1] active, const i
            double[:, ::1] block, int[::1] begin, int[::1] found):
     """Rows of the neighbours of the active particles, each ascending.
 
-    packed : (3, n + LANES) positions in the order of the cells, and room
+    packed : (3, n + LANES) positions in the order of the cells, and spare room
     active : (n,) 1 for particles that need a row
     start : (cells + 1,) first particle of each cell
-    count, reach : (3,) cells of the grid, and how many of them away neighbours may be
-    beside : (count[1], .) cells across the tank with neighbours of each, ascending, then -1
+    count, reach : (3,) cells of the grid, and how many cells away neighbours may be
+    beside : (count[1], .) for each cell across the tank, the cells with neighbours, ascending; -1
+        after the last
     indptr : (n + 1,) out, indices : out
     nearby : scratch, the candidates
     block : (3, .) scratch, the coordinates of the candidates
-    begin : (n,), found : scratch, rows in the order in which they are found; as long as `indices`
+    begin : (n,) scratch
+    found : scratch as long as `indices`, the rows in the order in which they are found
 
     Returns the number of entries written; -1 when `indices` is too short, -2 when `block` is.
     """
@@ -67,7 +69,7 @@ cdef Py_ssize_t walk(const double[:, ::1] packed, const unsigned char[::1] activ
 
     length, begin : (n,) out, where each row lies in `found`
     """
-    cdef int[2 * STRETCH] layer  # where each layer of candidates begins, those in reach included
+    cdef int[2 * STRETCH] layer  # where each layer of candidates begins, from x - reach on
     cdef int cx, c, low, high, next = 0, lowest = max(x - reach[0], 0)
     cdef Py_ssize_t i, m, filled = 0, own
     cdef Py_ssize_t room = nearby.shape[0] - LANES, capacity = found.shape[0]
@@ -132,7 +134,7 @@ cdef Py_ssize_t add_layer(const double[:, ::1] packed, const int[::1] start,
 
 cdef inline Py_ssize_t ahead(const int[::1] start, const int[::1] count, const int[::1] reach,
                              const int[:, ::1] beside, int x, int y, int z) noexcept nogil:
-    """How many particles of a layer come before those of the cell in its middle."""
+    """How many particles of a layer come before those of the cell in the middle of the layer."""
     cdef int low = max(z - reach[2], 0), high = min(z + reach[2] + 1, count[2]), base
     cdef Py_ssize_t s, before = 0
     for s in range(beside.shape[1]):
@@ -147,11 +149,11 @@ cdef inline Py_ssize_t pick(const double[:, ::1] block, const int[::1] nearby, P
                             Py_ssize_t end, Py_ssize_t own, double x, double y, double z,
                             double limit, double width, int[::1] found,
                             Py_ssize_t used) noexcept nogil:
-    """Append the candidates whose squared distance from a place is below the limit, but `own`;
+    """Append the candidates whose squared distance from a place is below the limit, without `own`;
     returns the entries used.
 
-    All of them in full lanes, so that a pair has the same distance from either side, to the last
-    bit.
+    Distances are always taken LANES at a time, so that a pair has the same distance from either
+    side, to the last bit.
     """
     cdef Py_ssize_t m = first
     cdef int near

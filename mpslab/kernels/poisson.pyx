@@ -6,13 +6,14 @@ def assemble(const int[::1] row_of, const int[::1] other, const float[::1] inver
              const int[::1] rows, const int[::1] unknown, stencil, pair_terms, double scale,
              int[::1] row, int[::1] column, float[::1] value, double[::1] diagonal,
              double[::1] excess):
-    """Rows of  -scale <lap p>  for the particles `rows`; `unknown` is the number of their row.
+    """Rows of  -scale <lap p>  for the particles `rows`.
 
-    Off-diagonal entries are -scale L(r_ij); the diagonal is the sum of scale L(r_ij) over all
-    neighbours in the equation, also those at the free surface, where p = 0 (`unknown` is -1).
-    Those that are not in it act as dp/dn = 0 (-2).  Entries are rounded to single precision, half of what a
-    product has to read, before they are summed: rows still add up to nothing.  `excess` is what a
-    diagonal has above its row: the pull of the free surface.
+    `unknown` is the number of the row of each particle; -1 at the free surface, where p = 0; -2 for
+    a particle that is not in the equation, which acts as dp/dn = 0.  Off-diagonal entries are
+    -scale L(r_ij); the diagonal is the sum of scale L(r_ij) over all neighbours in the equation and
+    those at the free surface.  Entries are rounded to single precision before they are summed: a
+    product then reads half as much, and away from the free surface a row still adds up to zero.
+    `excess` is the sum of each row: the pull of the free surface.
 
     row_of, other, inverse : pairs, see mpslab.kernels.measure
     row : (m + 1,) out; column, value : (entries,) out, long enough; diagonal, excess : (m,) out
@@ -50,11 +51,11 @@ def assemble(const int[::1] row_of, const int[::1] other, const float[::1] inver
 
 
 def reach(const int[::1] row, const int[::1] column, unsigned char[::1] reached):
-    """Mark the rows that can be reached from those marked, over symmetric couplings.
+    """Mark the rows that can be reached from marked ones, over symmetric couplings.
 
-    Sweeps back and forth: a row looks for one it is coupled to that is marked already, first where
-    the sweep comes from.  Particles are numbered upwards, so the first sweep, down from the
-    surface, finds nearly all at the first look.
+    Sweeps back and forth: a row looks for a marked one that it is coupled to, first on the side
+    from which the sweep comes.  Particles are numbered upwards, so in the first sweep, down from
+    the surface, nearly all rows find one at once.
     """
     cdef Py_ssize_t m, k, rows = reached.shape[0]
     cdef bint found = True

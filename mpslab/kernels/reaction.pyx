@@ -5,9 +5,10 @@ from mpslab.kernels.pair cimport FLUID
 def with_solids(const signed char[::1] role, const int[::1] row, const int[::1] solid,
                 const int[::1] other, const unsigned char[::1] wanted, int[::1] first,
                 int[::1] found):
-    """The pairs of water with the wanted particles of solids, by their numbers.
+    """Numbers of the pairs of water with the wanted particles of solids.
 
     row, solid, other : pairs, see mpslab.kernels.measure
+    wanted : (n,) 1 for these particles
     first : (n + 1,) out, where the pairs of each particle begin in `found`
     found : out, long enough
 

@@ -14,7 +14,7 @@ def shift(const double[:, ::1] position, const int[::1] row, const int[::1] soli
           double factor, double longest, double[:, ::1] out):
     """dr_i = -factor sum_j (C_i + D_j)/2 r_ij w/r^2 of the particles that may move [m].
 
-    D_j is C_j of water and C_i of solids; no move is longer than `longest` [m].
+    D_j is C_j if j is water and C_i if it is a solid; no move is longer than `longest` [m].
 
     position : (n, 4) [m], where the particles are now, the fourth number 0
     row, solid, other : pairs, see mpslab.kernels.measure
@@ -57,7 +57,7 @@ cdef inline void pulls(const double* position, Py_ssize_t i, const int* other, i
                        double* factors) noexcept nogil:
     """r_ij [m] and w/r^2 [1/m2] of up to PART neighbours of a particle.
 
-    The factors are worked on LANES at a time, always, whatever lies behind the last one.
+    Always LANES factors are worked on at a time, whatever lies behind the last one.
     """
     cdef four here = load(position + 4 * i)
     cdef double inverse
@@ -87,12 +87,12 @@ def moved(const double[:, ::1] position, const double[:, ::1] before, double wid
 
 def close(const int[::1] row, const int[::1] other, const float[::1] inverse, double distance,
           const double[::1] path, int[::1] close_row, int[::1] close_other):
-    """Rows of the pairs that are closer than a distance [m] if each comes nearer by its path.
+    """Rows of the pairs that are closer than a distance [m], or may be after both have gone a path.
 
-    path : (n,) [m]
+    path : (n,) [m], how far each particle may have gone
     close_row : (n + 1,) out, close_other : (m + 1,) out
 
-    Returns how many there are.  Distances are taken a millionth longer: inverse is rounded.
+    Returns how many there are.  `distance` is taken a millionth longer, because inverse is rounded.
     """
     cdef double reach
     cdef Py_ssize_t i, k
@@ -113,13 +113,13 @@ def overlap(const int[::1] indptr, const int[::1] indices, const double[:, ::1] 
             const double[:, ::1] before, const double[:, ::1] velocity,
             const signed char[::1] role, stencil, double closest, double dt,
             double[:, ::1] move, double[:, ::1] change):
-    """Displacement that takes pairs closer than `closest` apart (after Tsuruta et al. 2013) [m],
-    and the change of velocity that goes with it [m/s].
+    """Displacement that parts pairs closer than `closest` (after Tsuruta et al. 2013) [m], and the
+    change of velocity that goes with it [m/s].
 
     dr_i = -s (sqrt(closest^2 - r_perp^2) - r_par) e, along the direction e that the pair had
     before the pressure moved it; s = 1/2 between fluid particles, 1 against a wall.  The velocity
-    changes by dr_i/dt, but by no more than takes the pair's approach away: parting those that
-    something else has pushed together must not make energy.
+    changes by dr_i/dt, but by no more than the speed at which the pair approaches: parting a pair
+    that something else has pushed together must not make energy.
 
     indptr, indices : of pairs that may be so close (`close`)
     before : (n, 4) [m], the fourth number 0

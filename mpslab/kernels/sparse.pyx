@@ -93,9 +93,10 @@ def factorise(const int[::1] row, const int[::1] column, const float[::1] value,
 
     factor : out, laid out as `value`; its lower part holds L
     pivot : (m,) out, 1/D
-    work : (m,) scratch, all zero; a row spread out, so that absent entries add nothing
+    work : (m,) scratch, all zero; holds a whole row, so that absent entries add nothing
 
-    Returns the number of pivots below 1e-2 of their diagonal, which were put back to it.
+    Returns the number of pivots that came out below 1e-2 of their diagonal; each of them was
+    replaced by the diagonal.
     """
     cdef Py_ssize_t i, k, e
     cdef int c, replaced = 0

@@ -4,11 +4,11 @@ from mpslab.kernels.pair cimport FLUID
 
 def outside(const double[:, ::1] position, const signed char[::1] role, const double[::1] low,
             const double[::1] high, const double[:, ::1] bed, int[::1] rows):
-    """rows = the water outside of a box, or below the bed.
+    """rows = the water particles outside of a box, or below the bed.
 
     low, high : (3,) corners of the box [m]
-    bed : (k, 2) its points x, z [m], two at least; level before the first, straight on after the
-        last
+    bed : (k, 2) x and z [m] of its points, two at least; it is level before the first, and goes
+        straight on after the last
 
     Returns how many there are.
     """

@@ -21,7 +21,7 @@ def pad(const double[:, ::1] vectors, double[:, ::1] out):
 
 
 def add(double[:, ::1] vectors, const double[:, ::1] change, const unsigned char[::1] mask):
-    """Add a change to those of the vectors that a mask has; one of a single row, to each."""
+    """Add a change to the vectors in a mask; a change of a single row is added to each of them."""
     cdef Py_ssize_t i, j, each = change.shape[0] > 1
     with nogil:
         for i in range(mask.shape[0]):
@@ -33,7 +33,7 @@ def add(double[:, ::1] vectors, const double[:, ::1] change, const unsigned char
 
 
 def put(double[:, ::1] vectors, const double[:, ::1] others, const unsigned char[::1] mask):
-    """Put others in place of those of the vectors that a mask has."""
+    """Replace the vectors in a mask by others."""
     cdef Py_ssize_t i
     with nogil:
         for i in range(mask.shape[0]):

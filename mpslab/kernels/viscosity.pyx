@@ -84,10 +84,11 @@ def strain_rate(const int[::1] row, const int[::1] solid, const int[::1] other,
                 const float[:, ::1] offset, const signed char[::1] role, stencil,
                 const double[:, ::1] velocity, const double[:, :, ::1] c, bint slip,
                 double[::1] out):
-    """|S| = sqrt(2 S:S) of the water, S the symmetric part of (Ds/n0) sum_j u_ij (x) C_i r_ij w/r^2.
+    """|S| = sqrt(2 S:S) of the water [1/s]; 0 for solids.
 
-    In [1/s]; 0 for solids.  Exact for linear velocities where the neighbours are complete.  With
-    `slip` the walls are left out, as in `acceleration`, and next to one |S| is about half.
+    S is the symmetric part of (Ds/n0) sum_j u_ij (x) C_i r_ij w/r^2, exact for linear velocities
+    where the neighbours are complete.  With `slip` the walls are left out, as in `acceleration`;
+    next to a wall |S| is then about half of what it should be.
 
     c : (n, 3, 4) correction matrices over all neighbours; see mpslab.kernels.moments
     """

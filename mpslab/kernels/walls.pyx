@@ -1,4 +1,4 @@
-"""Pressure of walls: that of the water in front of them, or of their own first layer.
+"""Pressure of walls: from the water in front of them, or from their own first layer.
 
 row, solid, other, offset, inverse : pairs, see mpslab.kernels.measure
 pull : (n, 3) f = g - a_wall, so that p_j = p_i + rho f_j . r_ij across a wall [m/s2]
@@ -13,7 +13,7 @@ cdef inline double dot(const double* f, const float* r) noexcept nogil:
 def flux(const int[::1] row, const int[::1] solid, const int[::1] other,
          const float[:, ::1] offset, const float[::1] inverse, stencil, pair_terms,
          const double[:, ::1] pull, double[::1] out):
-    """sum over the solid neighbours of L(r_ij) f_j . r_ij: the Laplacian's share of walls [1/s2]."""
+    """Sum of L(r_ij) f_j . r_ij over solid neighbours: what walls add to the Laplacian [1/s2]."""
     cdef double radius = stencil.radius
     cdef double one = pair_terms[0], first = pair_terms[1], third = pair_terms[2]
     cdef double total
@@ -33,7 +33,7 @@ def extrapolate(const int[::1] row, const int[::1] solid, const int[::1] other,
                 const double[:, ::1] pull, bint clip, double[::1] pressure, double[::1] total):
     """p_w = sum_f w (p_f + rho f_w . r_fw) / sum_f w over the water f near a solid w [Pa].
 
-    Zero where there is no water near (Adami, Hu & Adams 2012).  Rows are those of the water.
+    Zero if there is no water near (Adami, Hu & Adams 2012).  Only water particles have rows.
 
     clip : whether a negative pressure becomes zero
     total : (n,) scratch
@@ -59,7 +59,7 @@ def extrapolate(const int[::1] row, const int[::1] solid, const int[::1] other,
 
 def nearest_face(const int[::1] row, const int[::1] solid, const int[::1] other,
                  const float[::1] inverse, const signed char[::1] role, int[::1] out):
-    """Nearest face among the neighbours of each filler, the first of several; else -1, (n,)."""
+    """Nearest face among the neighbours of each filler, the first of equals; -1 for none, (n,)."""
     cdef float most
     cdef Py_ssize_t i, k
     with nogil:

@@ -1,7 +1,7 @@
-"""A piston that absorbs what comes back to it, beside its own motion.
+"""A piston that absorbs the waves that come back to it, in addition to its own motion.
 
-What its gauge reads beside the level that its own waves would have there is a wave that comes in.
-`mpslab.theory.absorption` has the law by which the piston gives way to it.
+The level that its gauge reads, less the level that its own waves would have there, is a wave that
+comes in. `mpslab.theory.absorption` has the law by which the piston gives way to it.
 """
 
 import math
@@ -16,10 +16,10 @@ from mpslab.theory import absorption
 LEVEL, EXPECTED = "piston/level", "piston/expected"  # no gauge has such a name
 
 WINDOW = 3.0  # spacings over which the gauge takes the mean
-FASTEST = 0.5  # sqrt(g h): the speed of absorption, more than that of any wave that does not break
-HARDEST = 0.5  # gravity: its acceleration
-ROOM = 2.0  # strokes, unless the case says
-SLOWING = 0.05  # periods of the peak: in that time it could still reach the end of its room
+FASTEST = 0.5  # sqrt(g h): largest speed; no wave needs as much before it breaks
+HARDEST = 0.5  # gravity: largest acceleration
+ROOM = 2.0  # strokes to either side, unless the case says otherwise
+SLOWING = 0.05  # periods of the peak: at its speed it is at least so long from the end of its room
 SEAS = ("irregular", "focused", "bichromatic")
 
 
@@ -30,7 +30,7 @@ class Absorbing(Paddle):
     Attributes
     ----------
     window : float [m]
-        Over which its gauge takes the mean, from its face.
+        Length of water, from its face on, over which its gauge takes the mean.
     absorber : Absorber
     """
 
@@ -50,7 +50,7 @@ class Absorbing(Paddle):
 def absorbing(case, paddle):
     """The paddle of a case with absorption.
 
-    Raises CaseError where the piston has no room for it, or it does not know for which waves.
+    Raises CaseError if the piston has no room for it, or if nothing says which waves to absorb.
     """
     maker, gravity, depth = case.wavemaker, case.fluid.gravity, case.tank.paddle_depth
     require(gravity > 0.0, "fluid.gravity", gravity, "> 0 for wavemaker.absorption = true")
@@ -100,7 +100,7 @@ def _waves(maker, paddle):
 
 
 def _facts(law, gauge, amplitude, room):
-    """Numbers of the absorption for people, by the names of `Paddle.facts`."""
+    """Numbers of the absorption for people to read, by the names of `Paddle.facts`."""
     found = gauge.reflection(law)
     peak = int(np.argmax(amplitude))
     facts = {
@@ -127,7 +127,7 @@ class _Level:
 
 
 class Absorber:
-    """Takes the piston off its motion, by the law, as far as there is room.
+    """Moves the piston off its own motion, by the law, as far as there is room.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ class Absorber:
     room : float [m]
         How far it may go to either side.
     still : float or None [m]
-        z that the gauge reads of still water; None for what it reads first.
+        What the gauge reads in still water, z; None if its first reading is to be taken for that.
     fastest, hardest : float [m/s], [m/s2]
         Largest speed, and change of speed.
     """
@@ -150,7 +150,7 @@ class Absorber:
         self.lagged = np.zeros(len(law.lags))
 
     def at(self, time):
-        """How far it is off its motion, at a time of its last move [m]."""
+        """How far the piston is off its own motion, at a time within its last move [m]."""
         if time >= self.end:
             return self.new
         share = (time - self.begin) / (self.end - self.begin)
@@ -170,7 +170,7 @@ class Absorber:
         self.old, self.new = self.new, self.new + speed * dt
 
     def _listen(self, error, since):
-        """Take in what the gauge reads too much, and read `since` earlier [m], [s]."""
+        """Take in the error of the level [m], `since` [s] after the one before."""
         between = 0.5 * (self.error + error)
         self.error = error
         self.mean += -math.expm1(-since / self.law.washout) * (between - self.mean)

@@ -1,9 +1,9 @@
 """How many particles a case has, by arithmetic: nothing is laid out, whatever the size.
 
 The columns of the tank are counted as `filling` and the solids lay them out; if there are very
-many, some of them stand for all.  The sum is exact, except for discs, solids of any shape, dips of
-a staircase, and tanks with very many columns; a wall that an obstacle or a solid covers still
-counts as wall.
+many, some columns stand for all.  The sum is exact, except for discs, solids of any shape, a
+staircase with dips, and tanks with very many columns; a wall that an obstacle or a solid covers
+still counts as wall.
 """
 
 import numpy as np
@@ -22,7 +22,7 @@ from mpslab.core.kinds import (
 from mpslab.core.lattice import effective_length, ground, rows_across
 from mpslab.solids import filling, gates, obstacles, shaped
 
-MOST_COLUMNS = 10_000  # looked at one by one
+MOST_COLUMNS = 10_000  # that are counted one by one
 
 
 def census(case, backmost=0.0):
@@ -55,7 +55,7 @@ def census(case, backmost=0.0):
 
 
 def columns_between(case, start, end):
-    """How many columns of a box of water from start to end, corners [m], stand in no gate."""
+    """How many columns of a box of water stand in no gate; start and end are its corners [m]."""
     spacing = case.particles.spacing
     first, last = round(start[0] / spacing), round(min(end[0], effective_length(case)) / spacing)
     held = [np.clip(np.round(faces / spacing), first, last) for faces in gates.faces(case)]
@@ -63,7 +63,7 @@ def columns_between(case, start, end):
 
 
 def _columns(case, first, last):
-    """Places [m] of the columns from one number to another, and how many each stands for."""
+    """x [m] of the columns from number `first` to `last`, and how many columns each stands for."""
     number = max(int(last) - int(first), 0)
     seen = min(number, MOST_COLUMNS)
     column = int(first) + np.floor((np.arange(seen) + 0.5) * number / max(seen, 1))
@@ -71,7 +71,7 @@ def _columns(case, first, last):
 
 
 def _stacked(case, x, top):
-    """Solid particles in the columns at x from the bed up to a height, (n,) float64."""
+    """How many particles fit into solid columns at x from the bed up to `top`, (n,) float64."""
     spacing = case.particles.spacing
     low, first = ground(case, x)
     return np.maximum(np.round((top - low - first) / spacing + 0.5), 0.0)
@@ -124,7 +124,7 @@ def _lid(case):
 
 
 def _ends(case):
-    """End walls, and piston, in the section by kind."""
+    """End walls and piston in the section, by kind."""
     spacing, layers = case.particles.spacing, case.particles.layers
     out = (np.arange(layers) + 0.5) * spacing
     left = _stacked(case, -out, case.tank.height)
@@ -140,7 +140,7 @@ def _ends(case):
 
 
 def _gates(case):
-    """Gates in the section by kind."""
+    """Gates in the section, by kind."""
     found, spacing = {GATE: 0.0, GATE_DUMMY: 0.0}, case.particles.spacing
     for low, high in gates.faces(case):
         x, _ = _columns(case, round(low / spacing), round(high / spacing))
@@ -151,7 +151,7 @@ def _gates(case):
 
 
 def _side(case, behind):
-    """Of one layer of a side wall above the bed: wall particles in the first layer, and all."""
+    """A layer of a side wall above the bed: wall particles if it is the first, and all of it."""
     spacing, layers = case.particles.spacing, case.particles.layers
     length = round(case.tank.length / spacing)
     x, each = _columns(case, -behind - layers, length + layers)

@@ -14,7 +14,7 @@ KINDS = (obstacles, gates, shaped)  # that a case may have several of, in the or
 
 
 def solids_of(case, paddle=None, own=(), backmost=0.0):
-    """The solids of a case: tank, piston, obstacles, gates, those of any shape; then the user's.
+    """The solids of a case: tank, piston, obstacles, gates, solids of any shape; then the user's.
 
     Parameters
     ----------
@@ -23,7 +23,7 @@ def solids_of(case, paddle=None, own=(), backmost=0.0):
         Motion of the wavemaker; without it the solids can be laid out, but not move.
     own : sequence of solids
     backmost : float [m]
-        Least displacement of the piston, where there is no paddle to tell it.
+        Least displacement of the piston, if there is no paddle to tell it.
 
     Returns
     -------
@@ -82,7 +82,7 @@ class Solids:
         }
 
     def restore(self, state):
-        """Take back what `state` gave; other entries are passed over."""
+        """Take back what `state` gave; other entries are ignored."""
         for solid in self.bodies.values():
             head = f"{solid.name}."
             mine = {k.removeprefix(head): v for k, v in state.items() if k.startswith(head)}
@@ -90,20 +90,20 @@ class Solids:
                 solid.restore(mine)
 
     def advance(self, time, dt, readings):
-        """Let what moves decide on its move from time to time + dt."""
+        """Let the solids that move decide on their move from time to time + dt."""
         for solid in self.moving.values():
             solid.advance(time, dt, readings)
 
     def push(self, particles, time, dt):
-        """Give what moves the velocity of its move from time to time + dt, in place."""
+        """Give the solids that move the velocity of their move from time to time + dt, in place."""
         for body, solid in self.moving.items():
             solid.push(particles, np.flatnonzero(particles.body == body), time, dt)
 
     def move(self, particles, time, dt):
-        """Move what moves as from time to time + dt, in place."""
+        """Take the solids that move to their places at time + dt, in place."""
         for body, solid in self.moving.items():
             solid.move(particles, np.flatnonzero(particles.body == body), time, dt)
 
     def accelerates(self, particles):
-        """Mask of the particles whose acceleration the water feels, (n,) bool."""
+        """Mask of the solids' particles whose acceleration the water feels, (n,) bool."""
         return np.isin(particles.body, self.felt)

@@ -1,8 +1,8 @@
-"""How the water is laid: in columns, each filled by its volume up to the level asked for.
+"""How the water is laid out: in columns, each filled by its volume up to the level asked for.
 
 A column whose height is not a whole number of spacings gets the next smaller or the next larger
-number of particles, spread evenly over it. The two take turns, so that the columns together hold
-the volume of the water.
+number of particles, spread evenly over its height. The two numbers take turns from column to
+column, so that all columns together hold the volume of the water.
 """
 
 import numpy as np
@@ -11,7 +11,7 @@ from mpslab.core import bed as beds
 from mpslab.core.lattice import between, effective_length, ground, size
 from mpslab.solids import gates, obstacles, shaped
 
-# Share of a particle with which the first column begins: it differs from row to row across the
+# Share of a particle that the first column begins with: it differs from row to row across the
 # tank, so that all rows together hold the volume.
 PHASES = (0.125, 0.625, 0.375, 0.875)
 ROUND_OFF = 1e-6  # spacings
@@ -36,7 +36,7 @@ def section(case, row=0):
     Returns
     -------
     (n, 4) float64 [m]
-        x and z of each particle, and between which y its water reaches.
+        x and z of each particle, and the least and largest y that its water reaches.
     """
     phase = PHASES[row % len(PHASES)] if case.dim == 3 else 0.5
     if not case.water:
@@ -46,13 +46,13 @@ def section(case, row=0):
 
 
 def columns(case, start, end):
-    """x of the columns of water in a box [m], a list: those that are in no gate."""
+    """x of the columns of water in a box that stand in no gate [m], a list."""
     along = between(case, start[0], min(end[0], effective_length(case)))
     return [x for x in along if not gates.holds(case, x)]
 
 
 def _box(case, start, end, phase):
-    """Rows of the section for a box of water, less what solids take of it, (n, 4) [m]."""
+    """Rows of the section for a box of water, without what solids take up of it, (n, 4) [m]."""
     rows, spacing = [np.zeros((0, 4))], case.particles.spacing
     for low, high in obstacles.around(case, start, end):
         x = np.array(columns(case, low, high))
@@ -63,7 +63,7 @@ def _box(case, start, end, phase):
 
 
 def _fill(x, low, first, top, spacing, phase):
-    """Particles of columns at x from `low` to `top`, the lowest `first` above low: (n, 2) [m]."""
+    """Particles of columns at x from `low` to `top`, the lowest `first` above `low`: (n, 2) [m]."""
     # On a slope the lowest particle is farther up, because its distance is along the normal.
     base = low + first - 0.5 * spacing
     count = _share((top - low) / spacing, (top - base) / spacing, phase)
@@ -76,16 +76,15 @@ def _fill(x, low, first, top, spacing, phase):
 
 
 def _share(height, room, phase):
-    """Numbers of particles of the columns, in their order, (n,) int: what one cannot hold goes to
-    the next.
+    """How many particles each column gets, (n,) int; what a column cannot hold goes to the next.
 
     Parameters
     ----------
     height, room : (n,) float64 [spacings]
-        Of the water that is to be in a column, and of the room for particles; below 0 where a
-        column is dry.
+        Of each column: the height of the water that is to be in it, and of the room for particles;
+        below 0 if it is dry.
     phase : float
-        Share of a particle with which the first column begins.
+        Share of a particle that the first column begins with.
     """
     most = np.minimum(np.floor(room / TIGHTEST), np.ceil(room))
     most = np.maximum(most, room >= 0.5).astype(int)
@@ -98,7 +97,7 @@ def _share(height, room, phase):
 
 
 def _disc(case, water):
-    """Rows of the section for the disc in a box: those of the lattice with their centre inside."""
+    """Rows of the section for the disc in a box: particles of the lattice with centres inside."""
     spacing = case.particles.spacing
     (x0, y0, z0), (x1, _, z1) = water.start, water.end
     low, high = (round(z / spacing) * spacing for z in (z0, z1))
@@ -133,7 +132,7 @@ def lid(case):
 
 
 def laid(case, start, end):
-    """Corners of a box of water as it is laid, in whole spacings along x and y: (3,) [m] each."""
+    """Corners of a box of water as laid out, in whole spacings along x and y: (3,) [m] each."""
     spacing = case.particles.spacing
     low, high = np.array(start), np.array(end)
     low[:2], high[:2] = (np.round(corner[:2] / spacing) * spacing for corner in (low, high))

@@ -1,8 +1,8 @@
 """Gates: plates across the tank that hold back water until they are lifted.
 
-A gate stands on the bed, from its place x onshore, and is drawn straight up at a constant speed
-until it is clear of the walls.  It is as thick as an obstacle has to be, so that the water on one
-side does not press through to the other.
+A gate stands on the bed and reaches onshore from its place x.  It is drawn straight up at a
+constant speed until it is above the walls.  It is as thick as an obstacle has to be, so that the
+water on one side does not press through to the other.
 """
 
 import numpy as np
@@ -66,7 +66,7 @@ class Gate(Solid):
 
 
 class Lift:
-    """Straight up at a constant speed, from a time on, up to a height.
+    """A motion straight up at a constant speed, from a time on, up to a height.
 
     Parameters
     ----------

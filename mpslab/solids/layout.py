@@ -1,4 +1,4 @@
-"""Initial particles of a case: its water, and those of its solids.
+"""The particles that a case starts with: its water and its solids.
 
 Water particles stand half a spacing off every boundary, wall particles half a spacing behind it.
 """
@@ -43,7 +43,7 @@ def build_particles(case, backmost=0.0, own=()):
     backmost : float [m]
         Least displacement of the piston; the bed reaches that far behind it.
     own : sequence of solids
-        Beside those of the case.
+        The user's, in addition to those of the case.
     """
     spacing = case.particles.spacing
     water = _water(case, own)

@@ -22,8 +22,8 @@ NEAR = 2.0  # spacings: water that is as near as this presses on a wall at t = 0
 def blocks(case):
     """Low and high corners of the obstacles in whole spacings, (k, 2, 3) float64 [spacings].
 
-    Infinite where a box stands against the bed or a wall, because there is no water beyond; in 2-D
-    y is infinite too.
+    A coordinate is infinite where a box stands against the bed or a wall, because there is no water
+    beyond; in 2-D y is infinite too.
     """
     return _blocks(case.obstacle, case.tank, case.particles.spacing)
 
@@ -36,15 +36,16 @@ def _blocks(boxes, tank, spacing):
 
 
 def least_thickness(case):
-    """Spacings between faces that both meet water, so that no particle has both in its reach.
+    """Least distance of two faces that both meet water [spacings].
 
-    Water may stand as near as the face; a particle k layers below the face is k + 1/2 from there.
+    At this distance no particle reaches the water on both sides. Water may come right up to a face;
+    a particle k layers below the face is k + 1/2 spacings from there.
     """
     return 2 * ceil(case.scheme.reach - 0.5)
 
 
 def around(case, start, end):
-    """What the obstacles leave of a box of water from start to end: smaller boxes, as pairs [m]."""
+    """What the obstacles leave of a box of water: smaller boxes, as pairs of corners [m]."""
     boxes, spacing = [(start, end)], case.particles.spacing
     for low, high in blocks(case) * spacing:
         boxes = [piece for box in boxes for piece in cut(*box, low, high)]
@@ -101,7 +102,7 @@ def cover(case, position, role):
 
 
 def press(case, particles):
-    """Give obstacles and gates the hydrostatic pressure of the water next to them, in place."""
+    """Give faces of obstacles and gates the hydrostatic pressure of water near them, in place."""
     spacing, fluid = case.particles.spacing, np.flatnonzero(particles.fluid)
     wall = (particles.body != PISTON) & _inside(case, particles.position / spacing)
     gate = particles.body >= FIRST_SOLID + len(case.obstacle)
@@ -121,7 +122,7 @@ def holds(case, position):
 
 
 def deep_inside(case, position):
-    """Number of the obstacle that holds a place more than a spacing below its faces, or -1.
+    """Number of the obstacle that holds a place more than a spacing below its faces; -1 for none.
 
     position : (n, 3) float64 [m]; returns (n,) int
     """
@@ -149,7 +150,7 @@ def _block(tank, spacing, box):
 
 
 def cut(start, end, low, high):
-    """The boxes that a block leaves of another box, as pairs: along x first, then y, then z."""
+    """What a block leaves of a box: boxes, as pairs of corners, cut off along x, then y, then z."""
     if any(end[k] <= low[k] or start[k] >= high[k] for k in range(3)):
         return [(start, end)]
     pieces = []

@@ -1,4 +1,4 @@
-"""The motion of the wavemaker's face, as every wavemaker hands it to the run."""
+"""The motion of the piston's face, as every wavemaker hands it to the run."""
 
 import math
 from collections.abc import Callable
@@ -22,27 +22,27 @@ class Paddle:
     foremost : float [m]
         Largest displacement during the run.
     backmost, farthest : float [m]
-        Smallest and largest displacement of the whole motion, whatever the end of the run: the bed
-        reaches as far, so that a run which goes on beyond its first end has the bed that it needs.
+        Smallest and largest displacement of the whole motion, whenever the run ends: the bed
+        reaches as far, so that a run that goes on beyond its first end has the bed that it needs.
     height : float [m]
         Wave height that the theory expects of this motion; 0 where it says nothing.
     note : str
         The theory and its range in one line of plain words.
     facts : dict
         What else there is to say about the motion: "top_speed [m/s]" and "largest_acceleration
-        [m/s2]"; of a recorded one "rows", "begin [s]" and "end [s]" in the time of the run; of a
+        [m/s2]"; of a recorded motion "rows", "begin [s]" and "end [s]" in the time of the run; of a
         sea "components", "peak_period [s]", "spectrum_left_out", "shortest_wavelength [m]",
-        "repeats_after [s]", and of what is drawn for the run "significant_height [m]", "waves" and
-        "largest_height [m]"; of a focused or steep wave "crest [m]".
+        "repeats_after [s]", and of the waves that the run itself gets "significant_height [m]",
+        "waves" and "largest_height [m]"; of a focused or steep wave "crest [m]".
     doubts : tuple of str
         What the run may suffer from, a line each.
     path : function (t : (n,) float64 [s]) -> X (n,) float64 [m]
-        The displacement at many times, for what has to know where the face has been.
+        The displacement at many times, for code that has to know where the face has been.
     waves : (rate (n,) float64 [rad/s], amplitude (n,) float64 [m]), or ()
-        Of what waves the motion is made, where its theory says so.
+        The waves that the motion is made of, if its theory says so.
     beyond : function (reach : float [m]) -> function (t : float [s]) -> float [m], or None
-        Level in front of the face, the mean over a reach, beyond what linear theory says of the
-        motion (`mpslab.solids.wavemakers._bound`).
+        Mean level over a reach in front of the face, less the level that linear theory expects of
+        the motion (`mpslab.solids.wavemakers._bound`).
     """
 
     displacement: Callable[[float], float]
@@ -92,7 +92,7 @@ def from_motion(
         As in `Paddle`.
     whole : (m,) float64 [s], optional
         Times that cover all of the motion: a period after the soft start, or a whole record. Left
-        out where `times` show all that it ever does.
+        out if `times` cover it already.
     """
     run, always = (motion(t) for t in (times, times if whole is None else whole))
     stroke, foremost = float(np.max(run) - np.min(run)), float(np.max(run))
@@ -111,10 +111,10 @@ def from_motion(
 
 
 def sample_times(end: float, period: float, start=0.0, samples=SAMPLES) -> np.ndarray:
-    """Times that hold the extremes until `end` [s] of a motion with that period [s].
+    """Times at which a motion of a period [s] has its extremes until `end` [s].
 
     The motion fades in from 0 until `start` [s], so it goes farthest in its last period before the
-    end, or in the first period after `start`. There are as many times whatever the end.
+    end, or in the first period after `start`. The number of times does not depend on the end.
 
     Returns
     -------

@@ -8,13 +8,13 @@ from mpslab.core.particles import FACE, FILLER, TANK
 from mpslab.solids.absorption import absorbing
 from mpslab.solids.solid import Solid
 
-ROOM = 3  # spacings that must stay between the piston and an obstacle or a gate
+ROOM = 3  # spacings that must stay free between the piston and an obstacle or a gate
 
 
 def make_paddle(case):
-    """Motion of a case's wavemaker, None when the tank has a fixed wall.
+    """Motion of a case's wavemaker, None for a tank with a fixed wall in its place.
 
-    Raises ValueError where the wavemaker cannot make its wave, would leave the tank, or run into
+    Raises ValueError if the wavemaker cannot make its wave, would leave the tank, or would run into
     the shore, an obstacle or a gate.
     """
     if case.wavemaker.type == "none":
@@ -52,7 +52,7 @@ def _stay_in_tank(case, paddle):
 
 
 def _end_of_water(tank):
-    """x of the shore of the still water, or of the end wall [m], and which of the two it is."""
+    """x of the still water's shoreline or of the end wall [m], and which of the two it is."""
     bed = np.array(tank.bed)
     dry = np.flatnonzero(bed[:, 1] >= tank.depth)
     if len(dry) == 0:
@@ -62,7 +62,7 @@ def _end_of_water(tank):
 
 
 def _leave_room(key, value, x, reach):
-    """Refuse the value of a key that puts a solid at x [m], where the piston reaches it."""
+    """Refuse the value of a key that puts a solid at x [m], if the piston reaches it there."""
     if x < reach:
         raise CaseError(
             f"{key} = {shown(value)}: must be at x >= {reach:.4g} m, {ROOM} spacings ahead of the "
@@ -138,7 +138,7 @@ class Piston(Solid):
         self.cover(particles, face)
 
     def cover(self, particles, face):
-        """Make the bed behind the face carry no pressure: else it would tie the corner to p = 0."""
+        """Make fillers of the bed behind the face: as faces they would tie the corner to p = 0."""
         rows = np.flatnonzero((particles.body == TANK) & (particles.position[:, 0] < self.near))
         rows = rows[np.isin(particles.gid[rows], self.bed, kind="sort")]
         behind = particles.position[rows, 0] < face - self.margin

@@ -2,11 +2,12 @@
 
 The particles are smoothed onto a grid: the colour function c, the share of water around a node, is
 1 deep in the water, 0 in the air and 1/2 half a spacing off the outermost particles, where the
-water ends. The level surface c = 1/2 is found cell by cell: a vertex in each cell that it passes,
-at the mean of where it cuts the cell's edges, and a quadrangle around each edge that it cuts.
+water ends. The level surface c = 1/2 is found cell by cell: there is a vertex in each cell that it
+passes, at the mean of the points where it cuts the cell's edges, and a quadrangle around each edge
+that it cuts.
 
 A sheet one particle thick has a surface. Lone drops and threads have none (c stays below 1/2):
-they are told apart as spray, to be drawn as particles.
+they count as spray, and are drawn as particles.
 """
 
 from dataclasses import dataclass
@@ -19,7 +20,7 @@ NODES = 2  # of the grid, for each spacing
 # Standard deviation of the kernel [spacings], which is a Gaussian up to REACH: narrower ones show
 # the particles, wider ones lose thin sheets (c = 0.66 within one).
 SMOOTHING, REACH = 0.6, 2.0
-AHEAD = (1.5, 3.0, 4.5, 6.0)  # spacings before a point, where it is looked for water
+AHEAD = (1.5, 3.0, 4.5, 6.0)  # spacings in front of a point, where water is looked for
 CORNERS = np.array(list(product((0, 1), repeat=3)))
 EDGES = [(a, b) for a, b in product(range(8), repeat=2) if np.sum(CORNERS[b] - CORNERS[a]) == 1
          and np.abs(CORNERS[b] - CORNERS[a]).sum() == 1]  # fmt: skip
@@ -37,9 +38,10 @@ class FreeSurface:
     normals : (n, 3) float64 [-]
         Unit normals at the points, out of the water.
     values : (n,) float64, or None
-        Of the particles around, at the points.
+        At the points, from the particles around.
     openness : (n,) float64 [-]
-        1 where nothing lies before a point, towards 0 the more water does, as below a jet.
+        1 where nothing lies in front of a point; the more water does, as below a jet, the nearer to
+        0.
     spray : (n_particles,) bool
         Particles that the surface does not hold.
     """
@@ -53,13 +55,13 @@ class FreeSurface:
 
     @property
     def area(self):
-        """[m2]"""
+        """Area of the surface [m2]."""
         a, b, c = self._corners()
         return 0.5 * float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
 
     @property
     def volume(self):
-        """Of what the surface encloses [m3]."""
+        """Volume that the surface encloses [m3]."""
         a, b, c = self._corners()
         return float(np.sum(a * np.cross(b, c))) / 6.0
 
@@ -78,7 +80,7 @@ def find_surface(position, spacing, values=None, period=0.0, window=None, bed=No
     values : (n,) array_like, optional
         A field of the particles, to be carried over to the surface.
     period : float [m]
-        Period across the tank (y), which is cut open at 0 and there; 0 where it has side walls.
+        Period across the tank (y): the water is cut open at y = 0 and there; 0 with side walls.
     window : (float, float) [m], optional
         Water farther left or right is cut off.
     bed : sequence of (x, z) [m], optional
@@ -129,7 +131,7 @@ def _check(position, spacing, values, window):
 
 
 def _mirrored(position, spacing, bed):
-    """Water and its image in the bed, as if it went on below, and whose image each particle is."""
+    """Water and its image in the bed, as if it went on below; and whose image each particle is."""
     every = np.arange(len(position))
     if bed is None:
         return position, every
@@ -169,7 +171,7 @@ class _Grid:
         self.count = np.maximum(np.round((high - low) / step), 1).astype(int)
         self.step = (high - low) / self.count
         self.low = low + 0.5 * self.step
-        # Beyond the cuts along x the water counts on, and beyond those along y it comes again.
+        # Water beyond the cuts along x counts as well; beyond those along y the water repeats.
         self.margin = int(np.ceil(reach / step)) if window else 0
 
     def sees(self, position):
@@ -201,9 +203,9 @@ class _Grid:
         return _at(field, (position - self.low) / self.step)
 
     def closed(self, share):
-        """The colour function with a node more at each end, which are outside.
+        """The colour function with one more node at each end, outside of the water.
 
-        Their values put the surface right into the cut.
+        Their values put the surface exactly into the cut.
         """
         closed = np.pad(share, 1)
         for axis in np.flatnonzero(self.cut):
@@ -214,7 +216,7 @@ class _Grid:
 
 
 def _dealt_out(place, weights, shape, around):
-    """Weights dealt out to the eight nodes around each place [nodes]; round about along y."""
+    """Weights dealt out to the eight nodes around each place [nodes]; periodic along y."""
     base = np.floor(place).astype(int)
     share = place - base
     total = np.zeros(np.prod(shape))
@@ -230,7 +232,7 @@ def _dealt_out(place, weights, shape, around):
 
 
 def _at(field, place, beyond="nearest"):
-    """A field between its nodes, linearly; beyond them as at the last ones, or 0: "constant"."""
+    """A field between its nodes, linearly; beyond them as at the last one, or 0 ("constant")."""
     from scipy.ndimage import map_coordinates
 
     return map_coordinates(field, place.T, order=1, mode=beyond)
@@ -267,10 +269,10 @@ def _net(field, cut):
 
 
 def _meeting(field, cells, at_end):
-    """Mean of where the surface meets the edges of cells, (k, 3) [nodes from their low corners].
+    """Mean of the points where the surface meets a cell's edges, (k, 3) [nodes from low corner].
 
-    At a cut, edges that lead through it count only where no other is met, so that the cut ends at
-    the surface and not at a node.
+    At a cut, edges that lead through it count only if the surface meets no other, so that the cut
+    ends at the surface and not at a node.
     """
     around = np.stack([field[tuple((cells + corner).T)] for corner in CORNERS], axis=-1)
     total, met = np.zeros((2, len(cells), 3)), np.zeros((2, len(cells), 1))
@@ -293,7 +295,7 @@ def _window(corner, shape):
 
 
 def _triangles(inside, number):
-    """Two for each edge that is cut, between the points of the four cells around it."""
+    """Two triangles for each edge that is cut, between the points of the four cells around it."""
     found = []
     for axis in range(3):
         second, third = (axis + 1) % 3, (axis + 2) % 3

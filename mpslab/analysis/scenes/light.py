@@ -1,4 +1,4 @@
-"""How bright a surface is that turns some way: one light, the same for all that is drawn.
+"""How bright a surface looks, by its direction: one light, the same for all that is drawn.
 
 Colours and normals are those of a viewer: x to the right, y up, z towards the eye.
 """
@@ -12,8 +12,8 @@ def _unit(*vector):
 
 SUN = _unit(-0.45, 0.70, 0.55)
 AMBIENT, DIFFUSE = 0.60, 0.46
-# The highlight: its strength, the power it falls off with, and the normal that shines most, which
-# is that of water that rises a little towards the light behind it.
+# The highlight: its strength, the power with which it falls off, and the normal that shines most:
+# that of water that rises a little towards the light behind it.
 GLOSS, SHARPNESS = 0.35, 40
 HALF = _unit(-0.28, 0.85, 0.50)
 

@@ -13,7 +13,7 @@ from PIL import Image
 
 from mpslab.core.files import in_words, replacing
 
-# From best to smallest: what the encoder's quality is, and the share of the size in pixels.
+# From best to smallest: the encoder's quality, and the share of the size in pixels.
 RUNGS = {
     ".mp4": [(18, 1.0), (22, 1.0), (26, 1.0), (30, 1.0), (30, 0.75), (34, 0.75), (34, 0.5),
              (40, 0.5)],
@@ -26,7 +26,7 @@ PALETTE_FROM = 6  # pictures
 
 
 class Reel:
-    """Pictures of one size, kept without loss in a file that goes when the reel does.
+    """Pictures of one size, kept without loss in a file that is deleted with the reel.
 
     Used as a context manager; `append` adds a picture, iteration goes through them.
     """
@@ -97,11 +97,11 @@ def write(reel, path, fps, limit=None):
     ----------
     reel : Reel
     path : str or Path
-        With the suffix .mp4 (H.264), .webp or .gif (both go round and round).
+        With the suffix .mp4 (H.264), .webp or .gif (these two repeat without end).
     fps : float [1/s]
-        Pictures a second; a GIF takes the nearest whole number of its hundredths of a second.
+        Pictures a second; a GIF shows each for a whole number of hundredths of a second.
     limit : float, optional [MB]
-        Quality, and then size, are lowered until the file is as small.
+        Quality, and then size in pixels, are lowered until the file is no larger.
 
     Returns
     -------
@@ -182,7 +182,7 @@ def _encode_animation(reel, draft, suffix, fps, quality, share):
     pictures = _scaled(reel, share)
     options = {"save_all": True, "loop": 0}
     if suffix == ".webp":
-        # Times are whole milliseconds: their ends are rounded, so that the film keeps its length.
+        # Times are whole milliseconds: the end of each picture is rounded, and the length kept.
         options |= {"quality": quality, "method": 4, "duration": _durations(len(reel), 1e3 / fps)}
     else:
         options |= {"duration": max(10 * round(100 / fps), 20), "disposal": 1}
@@ -194,7 +194,7 @@ def _encode_animation(reel, draft, suffix, fps, quality, share):
 
 
 def _palette(reel, colours):
-    """One for all pictures, from some of them side by side."""
+    """One palette for all pictures, from some of them side by side."""
     some = set(np.linspace(0, len(reel) - 1, PALETTE_FROM).astype(int).tolist())
     seen = [np.asarray(picture) for number, picture in enumerate(reel) if number in some]
     return Image.fromarray(np.concatenate(seen, axis=1)).quantize(colours)

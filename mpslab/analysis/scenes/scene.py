@@ -21,7 +21,7 @@ BACKENDS = ("pyvista", "plain")
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture, and where in it the points of the tank lie.
+    """A picture, and where the points of the tank lie in it.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class Picture:
 
 @dataclass
 class Scene:
-    """What a renderer draws, lit but for the spheres.
+    """What a renderer draws; all but the spheres is lit already.
 
     Attributes
     ----------
@@ -86,24 +86,24 @@ def draw(
     limits : (float, float), optional
         Values at the ends of the colours; those of the water by default.
     as_surface : bool
-        The surface of the water (`mpslab.analysis.scenes.freesurface`), with spray as spheres, or
-        all particles as spheres.
+        Draw the surface of the water (`mpslab.analysis.scenes.freesurface`), with spray as spheres;
+        else all particles as spheres.
     bed : sequence of (x, z) [m], optional
-        x ascending; carried on level to the left.
+        x ascending; level to the left of the first point.
     ground : float [m], optional
         How thick the bed is drawn; down to the lower limit of the view by default.
     width : float [m], optional
         Of the tank; the upper limit of y of the view by default.
     period : float [m]
-        The same where the tank is periodic, 0 where it has side walls.
+        Equal to the width if the tank is periodic; 0 if it has side walls.
     paddle_x : float [m], optional
         Face of the piston, which reaches up to the upper limit of the view.
     blocks : sequence of ((x, y, z), (x, y, z)) or ((x, y, z), (x, y, z), colour)
-        Solid boxes, from and to [m].
+        Solid boxes, from one corner to the other [m].
     colour : (float, float, float) [0 to 1]
         Of water and spray without values.
     backend : str, optional
-        "pyvista", or "plain", which needs nothing but numpy; the first that is there by default.
+        "pyvista", or "plain", which needs only numpy; by default pyvista if it is installed.
 
     Returns
     -------
@@ -164,7 +164,7 @@ class _Paint:
         self.norm = Normalize(*(limits or (0.0, 1.0)))
 
     def __call__(self, values, seen):
-        """Colours of those of a mask, or of all for a slice, (n, 3) float64."""
+        """Colours of the values that a mask or slice `seen` picks, (n, 3) float64."""
         if values is None:
             return np.tile(self.plain, (np.count_nonzero(seen), 1))
         return self.map(self.norm(values[seen]))[:, :3]
@@ -216,13 +216,13 @@ def _pieces(bed, left, right):
 def _add_box(scene, low, high, colour, bottom, top):
     """The sides of a box that look towards the eye.
 
-    `low` and `high` are (x, y); bottom and top a level [m], or two, on the left and on the right.
+    `low` and `high` are (x, y); bottom and top are a level [m], or two: on the left and the right.
     """
     (x0, y0), (x1, y1) = low, high
     (z0, z1), (a, b) = np.broadcast_to(bottom, 2), np.broadcast_to(top, 2)
     corners = np.array([[x0, y0, z0], [x1, y0, z1], [x1, y0, b], [x0, y0, a],
                         [x0, y1, z0], [x1, y1, z1], [x1, y1, b], [x0, y1, a]])  # fmt: skip
-    # Counter-clockwise, seen from outside: front, back, left, right, top, bottom.
+    # Counter-clockwise, if seen from outside: front, back, left, right, top, bottom.
     for side in ("0123", "5476", "4037", "1562", "3267", "4510"):
         quad = corners[[int(number) for number in side]]
         normal = np.cross(quad[2] - quad[0], quad[3] - quad[1])

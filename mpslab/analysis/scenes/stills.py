@@ -16,13 +16,13 @@ from mpslab.analysis.scenes.view import fitted
 from mpslab.analysis.snapshots import middle_slice
 from mpslab.core.kinds import FLUID, GATE, GATE_DUMMY, PISTON
 
-UNITS = 960  # of the layout across a picture, whatever its pixels
+UNITS = 960  # of the layout across a picture, however many pixels it has
 HEADING, CLOCK, SCALE, BAR = 20, 26, 42, 54  # heights [units]: a line, time, ticks, colour bar
 EDGE = 60  # left and right of a 2-D tank [units]
-HIGHEST = 0.5  # height of the tank in a picture over its width
+HIGHEST = 0.5  # largest height of the tank in a picture over its width
 # The eye of a 3-D film: ahead of the wave, and above it [degrees].
 AZIMUTH, ELEVATION = -24.0, 20.0
-GROUND = 0.12  # water depths of the bed that are shown
+GROUND = 0.12  # water depths: how thick the bed is drawn
 # In 3-D the colours of speed are those of water: deep blue at rest, white as foam where it is fast.
 SEA = LinearSegmentedColormap.from_list(
     "sea",
@@ -30,7 +30,7 @@ SEA = LinearSegmentedColormap.from_list(
      (1.0, (0.88, 0.95, 0.99))],
 )  # fmt: skip
 TEXT = {"fontsize": 9.5, "color": "0.15"}
-SPRAY = 0.999  # share of the water that is to be in the picture: spray may fly out of it
+SPRAY = 0.999  # share of the water that has to be in the picture: spray may fly out of it
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Shot:
     pace : str
         How fast the film plays, in words.
     surface : bool
-        Of a 3-D run: the surface of the water, or its particles.
+        For a 3-D run: whether to draw the surface of the water, or its particles.
     """
 
     case: dict
@@ -73,7 +73,7 @@ class Shot:
         return MAPS.get(self.field)
 
     def painter(self):
-        """What draws the frames: a function (time [s], frame) -> (h, w, 3) uint8."""
+        """The function that draws the frames, (time [s], frame) -> (h, w, 3) uint8."""
         return (_InSpace if self.case["tank"]["width"] else _InPlane)(self)
 
 
@@ -86,7 +86,7 @@ def box_of(frames, case, window=None):
         As `mpslab.output.vtkhdf.read_frame` returns them.
     case : dict
     window : (float, float) [m], optional
-        Limits of x; the whole tank, as far as the piston goes, by default.
+        Limits of x; by default the whole tank, and the piston as far back as it goes.
     """
     spacing, tank = case["particles"]["spacing"], case["tank"]
     left, right = window or (0.0, tank["length"])

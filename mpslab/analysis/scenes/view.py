@@ -1,4 +1,4 @@
-"""From where a scene is seen, and where in the picture its points lie."""
+"""From where a scene is seen, and where its points lie in the picture."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -6,7 +6,7 @@ from itertools import product
 
 import numpy as np
 
-MARGIN = 1.02  # what is seen, over what must be
+MARGIN = 1.02  # size of what is seen over size of what must be seen
 ANGLE = 20.0  # [degrees] across the larger side of a picture in perspective
 
 
@@ -28,9 +28,9 @@ class View:
     size : (int, int) [pixels]
         Width and height of the picture.
     seen : sequence of (x, y, z) [m]
-        What must be seen, where that is less than the box; its corners by default.
+        What must be seen, if that is less than the box; by default the corners of the box.
     angle : float [degrees]
-        What the eye takes in across the larger side of the picture, in perspective.
+        Of view in perspective, across the larger side of the picture.
 
     Raises
     ------
@@ -67,12 +67,12 @@ class View:
 
     @cached_property
     def _corners(self):
-        """What must be seen, to the right, up and ahead [m]."""
+        """The points that must be seen, to the right, up and ahead [m]."""
         return np.array(self.seen or list(product(*self.box)), float) @ self.axes.T
 
     @cached_property
     def slopes(self):
-        """Tangents of half of what the eye takes in, across and up, (2,) float64."""
+        """Tangents of half the angle of view, across and up, (2,) float64."""
         size = np.array(self.size, float)
         return np.tan(np.radians(0.5 * self.angle)) * size / size.max()
 
@@ -92,7 +92,7 @@ class View:
 
     @cached_property
     def height(self):
-        """What the picture shows from its bottom to its top in parallel [m]."""
+        """Height of what a picture without perspective shows [m]."""
         across, up = np.ptp(self._corners[:, :2], axis=0)
         return MARGIN * max(up, across * self.size[1] / self.size[0])
 
@@ -101,7 +101,7 @@ class View:
         return (np.asarray(points, float) - self.eye) @ self.axes[2]
 
     def pixels_per_metre(self, points):
-        """How large a length across the line of sight is at places [m], (n,) float64 [1/m]."""
+        """Pixels of a metre across the line of sight, at places [m], (n,) float64 [1/m]."""
         half = 0.5 * self.size[1]
         if self.parallel:
             return np.full(len(points), 2.0 * half / self.height)
@@ -153,7 +153,7 @@ class View:
 
 
 def fitted(box, width, highest=1.0, **options):
-    """A view as high as what must be seen needs at a width.
+    """A view of a given width, as high as is needed to show what must be seen.
 
     Parameters
     ----------
@@ -161,7 +161,7 @@ def fitted(box, width, highest=1.0, **options):
         As `View` takes them.
     width : int [pixels]
     highest : float
-        Height over width, at most; a box that needs more is seen from farther away.
+        Largest height over width; a box that needs more is seen from farther away.
 
     Returns
     -------

@@ -9,11 +9,11 @@ EXACT_FOR_LINEAR = False
 def gradient(near, double[:, ::1] out):
     """<grad p>_i = (Ds/n0) sum_j (p_i C_j + p_j C_i) r_ij w / r^2 (Zhang, Adams & Hu 2024).
 
-    C is the correction matrix; walls take that of the water particle.  The pair force is equal and
-    opposite, but not central: linear momentum is conserved, angular momentum nearly.
+    C is the correction matrix; a wall takes that of the water particle.  The pair forces are equal
+    and opposite, but not central: linear momentum is conserved, angular momentum nearly.
 
-    Taken as p_i S_i + C_i sum_j p_j r_ij w/r^2, where S_i = sum_j C_j r_ij w/r^2 (`near.lean`)
-    does not depend on the pressure.
+    It is computed as p_i S_i + C_i sum_j p_j r_ij w/r^2, where S_i = sum_j C_j r_ij w/r^2
+    (`near.lean`) does not depend on the pressure.
     """
     cdef const int[::1] row = near.row, solid = near.solid, other = near.other
     cdef const float[:, ::1] offset = near.offset
@@ -35,7 +35,7 @@ def gradient(near, double[:, ::1] out):
                 total = plus(total, pressure[other[k]], pull(&offset[k, 0]))
             for k in range(solid[i], row[i + 1]):
                 j = other[k]
-                # A solid without a pressure stands in S_i, with C_i, and is taken out of it.
+                # A solid without a pressure is in S_i, with C_i: this takes it out.
                 total = plus(total, pressure[j] if loaded[j] else -pressure[i],
                              pull(&offset[k, 0]))
             total = turned(&c[i, 0, 0], total)

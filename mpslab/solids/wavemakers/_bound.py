@@ -1,11 +1,13 @@
-"""The level at the piston beyond what linear theory says of its motion, for one that absorbs.
+"""The level at a piston that absorbs, less the level that linear theory expects of its motion.
 
-To second order that is the bound waves, less the free waves of the motion that keeps free waves
-away (Schaffer 1996): the piston makes these or not, and linear theory of its motion knows. And the
-gauge goes with the piston, so that it reads X d eta/dx more than one that stands. Where the motion
-fades in, all this grows with the square of its share.
+To second order this difference has two parts. The first is the bound waves, less the free waves
+that the second-order motion of Schaffer (1996) makes by linear theory. With that motion linear
+theory counts these free waves and the tank has none; without it the tank has their opposites and
+linear theory counts none: the difference is the same. The second is X d eta/dx, because the gauge
+moves with the piston. Where the motion fades in, the difference grows with the square of its share.
 
-Functions here are given the reach of the piston's gauge [m] and return one of time [s].
+`of_waves`, `of_sea` and `of_permanent` give a function of the reach of the piston's gauge [m] that
+gives a function of time [s]: the difference, `mpslab.solids.paddle.Paddle.beyond`.
 """
 
 import numpy as np
@@ -14,11 +16,14 @@ from mpslab.solids.wavemakers import _table
 from mpslab.theory import dispersion, schaffer
 from mpslab.theory.absorption import Gauge, seen
 
-HARMONICS, POINTS = 12, 256  # of a wave of permanent form, and points to its period
+HARMONICS, POINTS = 12, 256  # of a wave of permanent form: its harmonics, and points to a period
 
 
 def level(depth, gravity, reach):
-    """Level of a pair of waves over A_n A_m, or A_n A_m*: function (first, second, sign)."""
+    """Level of a pair of waves over A_n A_m (sign +1) or A_n A_m* (sign -1).
+
+    Returns a function (first, second : (n,) float64 [rad/s], sign) -> (n,) complex128.
+    """
 
     def of(first, second, sign):
         rate = first + sign * second
@@ -36,7 +41,7 @@ def level(depth, gravity, reach):
         return np.where(first == second, 0.25, 0.5) * x * y * (slope + other)
 
     def moved(rate):
-        """Amplitude of the piston for a wave of one metre, and the slope that it makes."""
+        """Amplitude of the piston for a wave of one metre, and the slope of the level there."""
         ratio = dispersion.biesel(dispersion.wave_numbers(rate, depth, gravity) * depth)
         return -1j / ratio, Gauge(rate, depth, gravity, reach).slope
 
@@ -44,7 +49,7 @@ def level(depth, gravity, reach):
 
 
 def of_waves(rate, amplitude, depth, gravity, fade):
-    """Of a few waves, one or two.
+    """`Paddle.beyond` of one wave or two.
 
     Parameters
     ----------
@@ -69,7 +74,7 @@ def of_waves(rate, amplitude, depth, gravity, fade):
 
 
 def of_sea(amplitude, first, step, depth, gravity, fade, lowest=0.0):
-    """Of many waves, whose frequencies are (first + i) step; as for `schaffer.of_pairs`."""
+    """`Paddle.beyond` of many waves, of frequencies (first + i) step, as in `schaffer.of_pairs`."""
 
     def beyond(reach):
         pair = level(depth, gravity, reach)
@@ -80,7 +85,7 @@ def of_sea(amplitude, first, step, depth, gravity, fade, lowest=0.0):
 
 
 def of_permanent(motion, period, celerity, number, depth, gravity, fade):
-    """Of a wave of permanent form, whose level at the face is h U / (c - U).
+    """`Paddle.beyond` of a wave of permanent form, whose level at the face is h U / (c - U).
 
     Parameters
     ----------

@@ -8,18 +8,18 @@ from mpslab.solids.wavemakers import _bound, _sea, _table
 from mpslab.theory import breaking, dispersion
 
 COLUMNS = (("time", "s"), ("elevation", "m"))
-TAPER = 0.05  # share of the record over which its ends are let down to zero
-POINTS = 4  # even times to the median one between two rows
+TAPER = 0.05  # share of the record over which each of its ends fades to zero
+POINTS = 4  # equal steps to the median time between two rows
 MOST_POINTS = 200_000
-LONGEST = 0.25  # of the record: the longest period that the piston makes
+LONGEST = 0.25  # share of the record: the longest period that the piston makes
 
 
 def make(record, wavemaker, depth, gravity, end):
     """Paddle X = Re sum of -i A / c0 e^{i omega t}, with A of a record and c0 of Biesel.
 
-    The record counts from its mean. It may have uneven times: a monotone cubic lies between. Its
-    ends are let down to zero, and periods longer than a quarter of it are left out, for which the
-    piston would have to go farther and farther.
+    The elevation counts from the mean of the record. The steps of its times may differ: a monotone
+    cubic goes through the rows. The ends of the record fade to zero. Periods longer than a quarter
+    of it are left out: the longer they are, the farther the piston would have to go.
 
     Raises ValueError if a stroke or smoothing is given, or the record breaks or has too few rows.
     """
@@ -56,7 +56,7 @@ def make(record, wavemaker, depth, gravity, end):
     kept = np.flatnonzero(amplitude)
 
     def beyond(reach):
-        """The table of the bound waves is as late as that of the motion."""
+        """The table of the bound waves, as late as that of the motion."""
         late = _bound.of_sea(
             amplitude[kept[0] :], kept[0], np.pi / length, depth, gravity,
             lambda t: moved.share(t + begin),
@@ -68,7 +68,7 @@ def make(record, wavemaker, depth, gravity, end):
 
 
 def _even(record):
-    """Distance of even times [s], and the record less its mean there, (n,) float64 [m]."""
+    """An equal step of time [s], and the record in such steps less its mean, (n,) float64 [m]."""
     length = record.times[-1] - record.times[0]
     step = max(float(np.median(np.diff(record.times))) / POINTS, length / MOST_POINTS)
     count = int(np.ceil(length / step))

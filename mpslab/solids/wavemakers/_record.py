@@ -11,13 +11,13 @@ import numpy as np
 
 MOST_ROWS = 50_000
 MOST_BYTES = 20_000_000
-LARGEST, CLOSEST = 1e9, 1e-9  # numbers, and times between rows [s]: no record goes beyond
+LARGEST, CLOSEST = 1e9, 1e-9  # largest number, and least time between two rows [s], of a record
 FINEST = 1e-15  # [m] less counts as nothing
 SEPARATORS = (";", "\t", ",", None)  # None: blanks
 NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?", re.IGNORECASE)
-# What stands for a missing number, and is no word of a heading.
+# What may stand for a missing number; none of these is a word of a heading.
 MISSING = ("nan", "inf", "infinity", "na", "n/a", "null", "none")
-# Units that a heading may name, by the one that the column must have.
+# Ways in which a heading may write a unit, by the unit that the column must have.
 OTHERS = {
     "s": ("ms", "msec", "us", "min", "minutes", "h", "hours"),
     "m": ("mm", "cm", "dm", "km", "um", "ft", "feet", "inch", "inches"),
@@ -40,7 +40,7 @@ class Record:
     digit : float
         Value of the last digit that the second column is written with.
     line : int
-        Of the file, with the first row.
+        Number of the line of the file that holds the first row.
     """
 
     where: str
@@ -53,9 +53,9 @@ class Record:
 def read(path, columns=MOTION) -> Record:
     """Read a record of time [s] and displacement [m], with or without a line of headings.
 
-    `columns` names other ones, (name, unit) each. They are parted by commas, semicolons, tabs or
-    blanks. A decimal comma may stand for the point, throughout the file, where commas do not part
-    the columns.
+    `columns` names other columns, (name, unit) each. Columns are parted by commas, semicolons, tabs
+    or blanks. Where they are not parted by commas, a decimal comma may take the place of the point
+    throughout the file.
 
     Raises ValueError with file and line if the file is missing or cannot be read, has fewer than
     two rows or too many, names other units, has a value that is not a finite number, or
@@ -104,7 +104,7 @@ def _lines(path, where):
 
 
 def _separator(lines):
-    """What parts the columns: the first of SEPARATORS that makes two numbers of some line."""
+    """What parts the columns: the first of SEPARATORS that parts some line into two numbers."""
     for _, text in lines:
         for separator in SEPARATORS:
             cells = _cells(text, separator)
@@ -149,7 +149,7 @@ def _require_units(cells, columns, where):
 
 
 def _two_numbers(cells, text, alike, columns, where):
-    """The numbers of a row, with one decimal mark and the same as in the rows before."""
+    """The two numbers of a row, whose decimal mark must be that of the rows before."""
     good = len(cells) == 2 and alike and all(map(NUMBER.fullmatch, cells))
     numbers = [float(cell.replace(",", ".")) for cell in cells] if good else [math.nan]
     if not all(abs(number) <= LARGEST for number in numbers):
@@ -165,7 +165,7 @@ def _two_numbers(cells, text, alike, columns, where):
 
 
 def _digits(cell):
-    """Decimal places of a number as it is written; below 0 where it ends before the point."""
+    """Decimal places of a number as it is written; negative for a large exponent, as in 1e3."""
     mantissa, _, exponent = cell.lower().partition("e")
     decimals = len(mantissa.replace(",", ".").partition(".")[2])
     return min(max(decimals - float(exponent or 0), -300.0), 300.0)

@@ -1,4 +1,4 @@
-"""What the pistons for regular waves share: the first-order stroke and the limit of breaking."""
+"""What the pistons for regular waves share: the first-order stroke and the breaking limit."""
 
 from dataclasses import dataclass
 from math import pi

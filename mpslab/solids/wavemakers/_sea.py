@@ -1,4 +1,4 @@
-"""What the pistons for a sea share: its waves, their motion to either order, and its numbers."""
+"""What the pistons for a sea share: its waves, the motion to either order, and its numbers."""
 
 import math
 from dataclasses import dataclass
@@ -10,12 +10,12 @@ from mpslab.solids import paddle
 from mpslab.solids.wavemakers import _bound, _record, _table
 from mpslab.theory import breaking, dispersion, schaffer, spectra, waves
 
-RECORD = 200.0  # peak periods after which a sea comes again, where nothing is said
-FEWEST, MOST = 5, 6000  # components; the most counts from zero to the highest frequency
-SAMPLES = 8  # between two points of a table, among which extremes are looked for
+RECORD = 200.0  # peak periods after which a sea repeats, unless the case says otherwise
+FEWEST, MOST = 5, 6000  # components; MOST counts from zero to the highest frequency
+SAMPLES = 8  # to a step of a table, among which extremes are looked for
 LOWEST = 0.05  # of the peak frequency: slower motions of second order are left out
 LARGEST = 2.0  # highest wave of a sea over Hm0
-MUCH = 0.05  # share of the spectrum
+MUCH = 0.05  # share of the spectrum whose loss is worth a line
 SPECTRUM = (("frequency", "Hz"), ("variance density", "m2/Hz"))
 
 
@@ -28,11 +28,11 @@ class Sea:
     height, period : float [m], [s]
         Hm0, and Tp of the peak.
     record : float [s]
-        After which all comes again: frequencies are multiples of 1 / record.
+        Time after which the sea repeats: frequencies are multiples of 1 / record.
     first : int
         Number of the first component.
     variance : (n,) float64 [m2]
-        Of each component; in all Hm0^2 / 16.
+        Of each component; their sum is Hm0^2 / 16.
     left_out : float [-]
         Share of the spectrum outside of the band.
     """
@@ -46,7 +46,7 @@ class Sea:
 
     @property
     def step(self):
-        """Between frequencies [rad/s]."""
+        """Distance of two frequencies [rad/s]."""
         return 2.0 * math.pi / self.record
 
     @property
@@ -58,7 +58,7 @@ class Sea:
 def of_wavemaker(wavemaker, depth, gravity, record):
     """The components of the spectrum of a wavemaker, `Sea`.
 
-    `record` is in s, 0 for RECORD periods.
+    `record` is in s; 0 stands for RECORD peak periods.
 
     Raises ValueError if height or period is not positive, the band or the record does not fit, or
     the file of a spectrum cannot be read.
@@ -129,7 +129,7 @@ def _of_file(wavemaker):
 
 
 def require_range(wavemaker, sea, depth, gravity):
-    """Raise ValueError where the sea breaks, or is too long for second order; list of doubts."""
+    """List of doubts; raises ValueError if the sea breaks, or is too long for second order."""
     length = waves.wavelength(sea.period, depth, gravity)
     limit = breaking.miche_height(length, depth)
     paddle.require_unbroken("height", sea.height, limit, "0.142 L tanh(kh) of the peak")
@@ -152,7 +152,7 @@ def require_range(wavemaker, sea, depth, gravity):
 
 
 def piston(sea, amplitude, order, depth, gravity):
-    """Table of the motion that makes waves of these complex amplitudes, (n,) [m], at the piston."""
+    """Table of the motion that makes waves of these complex amplitudes at the piston, (n,) [m]."""
     first = -1j * amplitude / dispersion.biesel(
         dispersion.wave_numbers(sea.rate, depth, gravity) * depth
     )
@@ -166,7 +166,7 @@ def piston(sea, amplitude, order, depth, gravity):
 
 
 def beyond(sea, amplitude, motion, depth, gravity):
-    """Level beyond linear theory, of waves that a `_table.Faded` makes (`_bound.of_sea`)."""
+    """`Paddle.beyond` of the waves that a motion, a `_table.Faded`, makes (`_bound.of_sea`)."""
     lowest = LOWEST * 2.0 * math.pi / sea.period
     return _bound.of_sea(amplitude, sea.first, sea.step, depth, gravity, motion.share, lowest)
 
@@ -179,13 +179,13 @@ def surface(sea, amplitude):
 def times_of(step, end):
     """Multiples of a step up to the end, and the end, (m,) float64 [s].
 
-    Those of an earlier end are among those of a later one, but for the end itself.
+    With a later end all times stay but the end itself, and others are added.
     """
     return np.append(np.arange(0.0, end, step), end)
 
 
 def samples_of(table, end):
-    """Times up to the end that hold the extremes of a table, (m,) float64 [s]."""
+    """Times up to the end at which the extremes of a table are found, (m,) float64 [s]."""
     return times_of(table.step / SAMPLES, end)
 
 
@@ -197,7 +197,7 @@ def waves_of(table, end):
 
 
 def facts_of(sea, amplitude, motion, times, depth, gravity):
-    """Numbers of a sea for people, by the names of `mpslab.solids.paddle.Paddle.facts`."""
+    """Numbers of a sea for people to read, by the names of `mpslab.solids.paddle.Paddle.facts`."""
     return {
         "components": len(amplitude),
         "repeats_after [s]": sea.record,
@@ -211,7 +211,7 @@ def facts_of(sea, amplitude, motion, times, depth, gravity):
 
 
 def speeds(motion, times):
-    """Largest speed and acceleration of a motion among times, by their names in the facts."""
+    """Largest speed and acceleration of a motion at some times, by their names in the facts."""
     return {
         "top_speed [m/s]": float(np.max(np.abs(motion(times, 1)))),
         "largest_acceleration [m/s2]": float(np.max(np.abs(motion(times, 2)))),
@@ -219,7 +219,7 @@ def speeds(motion, times):
 
 
 def doubts_of(sea):
-    """Lines on a spectrum of which much is left out."""
+    """Lines for people on a spectrum of which much is left out."""
     if sea.left_out <= MUCH:
         return []
     return [

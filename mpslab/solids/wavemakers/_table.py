@@ -2,14 +2,13 @@
 
 import numpy as np
 
-POINTS = 16  # of the table to the shortest period: quintics between them are right to 1e-7
+POINTS = 16  # of the table to the shortest period: with them, quintics are right to 1e-7
 
 
 class Table:
-    """Quintics between even times, which pass through place, velocity and acceleration there.
+    """Quintics between equal steps, at which they have the given place, velocity and acceleration.
 
-    Its velocity and acceleration are the derivatives of what it gives for the place, and have no
-    jumps.
+    The velocity and acceleration of the table are the derivatives of its place, without jumps.
 
     Parameters
     ----------
@@ -17,7 +16,7 @@ class Table:
     place, velocity, acceleration : (n,) float64
         At the times i step, i from 0 on.
     cyclic : bool
-        Whether all comes again after n steps; otherwise the ends hold before and after.
+        Whether the table repeats after n steps; if not, its ends hold before and after it.
     """
 
     def __init__(self, step, place, velocity, acceleration, cyclic):
@@ -61,7 +60,7 @@ def of_series(series, step):
     Parameters
     ----------
     series : (n,) complex128
-        Amplitudes a_i; the first, of what does not change, does not count.
+        Amplitudes a_i; the first, a constant, is left out.
     step : float [rad/s]
     """
     points = POINTS * len(series)
@@ -72,16 +71,16 @@ def of_series(series, step):
 
 
 class Faded:
-    """A motion, faded in from rest, and faded out again if it ends.
+    """A motion, faded in from rest, and faded out again if it has an end.
 
     Parameters
     ----------
     motion : function (t, derivative=0)
-        Such as `Table`.
+        For example a `Table`.
     rise : float [s]
         Time in which it fades in, from `begin`.
     begin, end : float [s]
-        Before and after it stands still at 0; an infinite end for none.
+        Before and after, it stands still at 0; the end is infinite if there is none.
     fall : float [s]
         Time in which it fades out, up to the end.
     """
@@ -91,7 +90,7 @@ class Faded:
         self.rise, self.fall = rise, fall
 
     def share(self, t):
-        """Of the motion at t, from 0 to 1."""
+        """Share of the motion at t, from 0 to 1."""
         rise = _fade((np.asarray(t) - self.begin) / self.rise, 0)
         return rise * (_fade((self.end - np.asarray(t)) / self.fall, 0) if self.fall else 1.0)
 
@@ -109,7 +108,7 @@ class Faded:
 
 
 def _product(one, other):
-    """Derivatives of a product, from those of its factors: orders 0 to 2 at most."""
+    """Derivatives of a product, from those of its factors: up to order 2 at most."""
     times = ((1,), (1, 1), (1, 2, 1))
     return [
         sum(n * one[i] * other[order - i] for i, n in enumerate(times[order]))
@@ -118,7 +117,7 @@ def _product(one, other):
 
 
 def _fade(s, derivative):
-    """s^2 (3 - 2 s) from s = 0 to 1, or its derivative by s; level before and after."""
+    """s^2 (3 - 2 s) from s = 0 to 1, or its derivative by s; constant before and after."""
     inside = (s > 0.0) & (s < 1.0)
     s = np.clip(s, 0.0, 1.0)
     if derivative == 0:

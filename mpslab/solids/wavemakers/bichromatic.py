@@ -1,4 +1,4 @@
-"""Piston for two waves of near periods, which make groups, to first or second order."""
+"""Piston for two waves of similar periods, which make groups, to first or second order."""
 
 import math
 
@@ -8,8 +8,8 @@ from mpslab.solids import paddle
 from mpslab.solids.wavemakers import _bound, _sea, _table
 from mpslab.theory import breaking, dispersion, schaffer, waves
 
-CLOSEST = 0.02  # difference of the frequencies over their mean
-WIDEST = 5.0  # longer period over the shorter
+CLOSEST = 0.02  # least difference of the frequencies over their mean
+WIDEST = 5.0  # largest ratio of the periods
 GROUPS = 50  # among which the extremes are looked for
 POINTS = 100  # to a period
 

@@ -15,11 +15,11 @@ STEPS = 100  # Runge-Kutta steps to the period of a sine; more for a sharp crest
 def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     """Paddle dX/dt = c eta / (h + eta), eta of a cnoidal wave at the moving face (Goring 1978).
 
-    It starts where eta = 0 rises, so from rest and with the crest first. At the moving face a
-    period carries as much water forward as back, so the motion closes after each period.
+    It starts where eta = 0 and rises, so from rest and with the crest first. In a period as much
+    water goes forward as back at the moving face, so the motion closes after each period.
 
-    Raises ValueError if height or period is not positive, the period is outside that of the theory,
-    the wave breaks at the maker or a stroke is given.
+    Raises ValueError if height or period is not positive, the period is outside of the theory's
+    range, the wave breaks at the maker, or a stroke is given.
     """
     wave = _wave(wavemaker, depth, gravity)
     one_period = _one_period(wave)
@@ -65,12 +65,12 @@ def _wave(wavemaker, depth, gravity):
 
 
 def _sharpness(wave):
-    """How much narrower than a sine's the crest is: a long period is mostly trough."""
+    """How much narrower the crest is than that of a sine: a long wave is mostly trough."""
     return 1.0 + 0.25 * math.sqrt(waves.ursell(wave.height, wave.length, wave.depth))
 
 
 def _one_period(wave):
-    """Displacement over one period: classical Runge-Kutta on a fixed grid, cubics between."""
+    """Displacement over one period: classical Runge-Kutta on fixed times, cubics between them."""
     steps = math.ceil(STEPS * _sharpness(wave))
     times, dt = np.linspace(0.0, wave.period, steps + 1, retstep=True)
     phase0 = wave.rising_phase

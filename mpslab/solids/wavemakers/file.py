@@ -10,7 +10,7 @@ LATE = 0.1  # share of the run that may pass before the record begins
 SHORT = 0.5  # share of the run that it has to cover
 ROUNDED = 0.1  # share of the acceleration that may come from the last digit
 MOST_SMOOTHED = 1000  # rows: beyond, round-off takes over
-FEW = 20  # rows: fewer were drawn by hand, and their digits mean what they say
+FEW = 20  # rows: fewer were drawn by hand, and their last digit is exact
 
 
 def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
@@ -18,13 +18,13 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
 
     With wavemaker.quantity = "elevation" it makes what the file holds (`_elevation.make`).
 
-    The run begins at wavemaker.offset of the record's time, and displacement counts from its value
-    there. Between rows the motion is a monotone cubic (Fritsch & Carlson 1980), which never goes
-    beyond the rows, and it leaves the first row and reaches the last one at rest; before and after,
-    the paddle stands still. With wavemaker.smoothing the rows are those of a smoothing spline.
+    The run begins at the time wavemaker.offset of the record, and displacement counts from its
+    value there. Between rows the motion is a monotone cubic (Fritsch & Carlson 1980), which never
+    goes beyond the rows; it is at rest at the first row and at the last one, and the paddle stands
+    still before and after. With wavemaker.smoothing a smoothing spline gives the rows.
 
-    Raises ValueError as `_record.read` does, or if the record lies outside of the run, begins below
-    0 s without an offset, or is too short for the smoothing.
+    Raises ValueError as `_record.read` does, or if the record lies outside of the run, begins
+    before 0 s without an offset, or is too short for the smoothing.
     """
     record = _record.read(wavemaker.file, _elevation.COLUMNS if _is_elevation(wavemaker) else
                           _record.MOTION)  # fmt: skip
@@ -87,11 +87,11 @@ def smooth(times, values, width):
     """Smoothing spline: values and slopes at the times, (n,) float64 each.
 
     The cubic spline f with the least integral of (f - x)^2 + (width / 2 pi)^4 f''^2: it halves
-    wiggles of the period `width`, leaves longer ones and straight lines as they are, and takes out
-    shorter ones with the fourth power of their period (Reinsch 1967; n = 3 or more).
+    wiggles of the period `width` and leaves longer ones and straight lines as they are; of shorter
+    ones it keeps a share that falls with the fourth power of their period (Reinsch 1967; n >= 3).
     """
     step, count = np.diff(times), len(times)
-    weight = np.empty(count)  # of each row: the time that it stands for
+    weight = np.empty(count)  # the time that each row stands for
     weight[1:-1], weight[[0, -1]] = 0.5 * (step[:-1] + step[1:]), 0.5 * step[[0, -1]]
     # Second differences, Q^T x, are three bands; f'' follows from (R + a Q^T W^-1 Q) f'' = Q^T x.
     bands = np.array([1.0 / step[:-1], -1.0 / step[:-1] - 1.0 / step[1:], 1.0 / step[1:]])
@@ -113,7 +113,7 @@ def smooth(times, values, width):
 
 
 def _from_rest(times, values, slopes):
-    """The rows from t = 0 on, from the first of them at rest and at 0, to rest at the last."""
+    """The rows from t = 0 on: at 0 and at rest at the first of them, at rest at the last."""
     if times[0] < 0.0:
         start = scipy.interpolate.CubicHermiteSpline(times, values, slopes)(0.0)
         rows = times > 0.0
@@ -173,7 +173,7 @@ def _short(times, end):
 
 
 def _rounded(record, wavemaker, acceleration):
-    """Whether the last digit alone makes much of the acceleration."""
+    """Whether much of the acceleration comes from the last digit alone."""
     step = float(np.median(np.diff(record.times)))
     noise = 2.0 * record.digit / step / step
     if len(record.times) < FEW or wavemaker.smoothing >= 4.0 * step:

@@ -15,13 +15,13 @@ LATE = 0.01  # share of the motion that may be cut off at the start
 def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     """Paddle for waves that all have a crest at wavemaker.place and wavemaker.time.
 
-    a_i = A S(f_i) df / m0 (Tromans, Anaturk & Hagemeijer 1991), with A of wavemaker.amplitude, or
-    sqrt(2 m0 ln N) of the highest of wavemaker.largest_of waves; wavemaker.phase turns all of them,
-    180 degrees to a trough. Order 2 as for `irregular`. Without a time, it is the soonest at which
-    even the slowest of the waves sets out after t = 0.
+    a_i = A S(f_i) df / m0 (Tromans, Anaturk & Hagemeijer 1991). A is wavemaker.amplitude, or
+    sqrt(2 m0 ln N), the highest of N = wavemaker.largest_of waves. wavemaker.phase turns all waves,
+    180 degrees to a trough. Order 2 is as for `irregular`. Without a time, it is the earliest for
+    which even the slowest wave sets out after t = 0.
 
-    Raises ValueError as `_sea.of_wavemaker` and `_sea.require_range` do, if a stroke is given, no
-    place, or an amplitude that breaks.
+    Raises ValueError as `_sea.of_wavemaker` and `_sea.require_range` do, or if a stroke is given,
+    no place is given, or the wave would break.
     """
     paddle.refuse_stroke(wavemaker)
     paddle.require_positive("place", wavemaker.place, "m")

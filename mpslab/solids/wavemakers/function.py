@@ -12,7 +12,7 @@ SAMPLES = 2001  # of the run, among which its extremes are looked for
 
 @dataclass(frozen=True)
 class Own(paddle.Paddle):
-    """A paddle that asks an object of the user's own for its moves, too.
+    """A paddle that lets an object of the user's own decide on each of its moves.
 
     Attributes
     ----------
@@ -35,12 +35,12 @@ class Own(paddle.Paddle):
 def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     """Paddle with the displacement X(t) [m] that wavemaker.function names, "module:name".
 
-    A function is called with t >= 0 and starts from rest, X(0) = 0. A class is called first,
-    without arguments, and what it makes then has X(t) as its call; with a method `advance` it also
-    has `state` and `restore`, and is asked only for times between those of its last move. Neither
-    may go farther from rest than wavemaker.stroke, for which the bed is laid.
+    A function is called with t >= 0 and starts from rest, X(0) = 0. A class is called once without
+    arguments; the object that it makes is then called as a function is. If the object has a method
+    `advance`, it also has `state` and `restore`, and is called only with times within its last
+    move. Neither may go farther from 0 than wavemaker.stroke, for which the bed is laid.
 
-    Raises ValueError if there is no such function, or it does not keep to this.
+    Raises ValueError if there is no such function, or if it breaks one of these rules.
     """
     paddle.require_positive("stroke", wavemaker.stroke, "m")
     maker, most = _found(wavemaker.function), wavemaker.stroke

@@ -12,10 +12,10 @@ SHORTEST_RISE = 0.5  # peak periods: the motion has no beginning of its own
 def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     """Paddle X = Re sum of -i A / c0 e^{i omega t}, c0 of Biesel; order 2 adds what Schaffer says.
 
-    The frequencies are multiples of 1 / wavemaker.record within wavemaker.band, with random phases
-    of wavemaker.seed; |A|^2 / 2 is S df each, or with wavemaker.amplitudes = "random" so in the
-    mean: cosine and sine are then Gaussian (Tucker et al. 1984). It is faded in within
-    wavemaker.start, or half a peak period where that is longer.
+    The frequencies are multiples of 1 / wavemaker.record within wavemaker.band; the phases are
+    random, from wavemaker.seed. For each frequency |A|^2 / 2 = S df; with wavemaker.amplitudes =
+    "random" this holds in the mean only: cosine and sine are then Gaussian (Tucker et al. 1984).
+    The motion is faded in within wavemaker.start, or half a peak period where that is longer.
 
     Raises ValueError as `_sea.of_wavemaker` and `_sea.require_range` do, or if a stroke is given.
     """

@@ -10,9 +10,9 @@ from mpslab.theory import breaking
 
 
 def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
-    """Paddle X = (S / 2) (1 - cos omega t): it starts from its rearmost place, so at rest.
+    """Paddle X = (S / 2) (1 - cos omega t): it starts at rest, from its rearmost place.
 
-    With wavemaker.first = "backward", from its foremost: X = -(S / 2) (1 - cos omega t).
+    With wavemaker.first = "backward" from its foremost place: X = -(S / 2) (1 - cos omega t).
     S is wavemaker.stroke or, where that is 0, follows from the height by H / S = 4 sinh^2 kh /
     (sinh 2kh + 2kh).
 

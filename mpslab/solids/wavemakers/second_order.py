@@ -12,8 +12,8 @@ from mpslab.theory import breaking, waves
 def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     """Paddle X = (S / 2) sin(a) + B sin(2 a) less its value at t = 0, with a = omega t + a0.
 
-    B = H^2 / (32 h) (3 cosh kh / sinh^3 kh - 2 S / H) (Madsen 1971) and S as for `linear`; a0 is
-    where the velocity vanishes and turns forward, or with wavemaker.first = "backward" turns back.
+    B = H^2 / (32 h) (3 cosh kh / sinh^3 kh - 2 S / H) (Madsen 1971) and S as for `linear`. a0 is a
+    phase at which the piston is at rest and turns forward, with wavemaker.first = "backward" back.
 
     Raises ValueError as `_regular.first_order` does, or if H L^2 / h^3 >= 8 pi^2 / 3.
     """
@@ -45,7 +45,7 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
 
 def _second_harmonic(wave, depth):
     kh = min(wave.kh, waves.LARGEST_KH)
-    # cosh / sinh^3 = 1 / (tanh sinh^2), and the latter does not overflow
+    # cosh / sinh^3 = 1 / (tanh sinh^2), which does not overflow
     bound = 3.0 / (tanh(kh) * np.sinh(kh) ** 2)
     return float(wave.height**2 / (32.0 * depth) * (bound - 2.0 * wave.stroke / wave.height))
 

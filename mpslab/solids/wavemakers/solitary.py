@@ -17,8 +17,8 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     """Paddle dX/dt = c eta(X, t) / (h + eta(X, t)), eta = H sech^2 k (c t - X).
 
     In closed form X = (H / (k h)) tanh k (c t - X), with k = sqrt(3 H / (4 h^3)) and
-    c = sqrt(g (h + H)); stroke 2 H / (k h). The tail that is left at t = 0 is faded in within the
-    time 1 / (k c), or within wavemaker.start where that is longer.
+    c = sqrt(g (h + H)); the stroke is 2 H / (k h). At t = 0 the speed is small but not 0; it is
+    faded in within the time 1 / (k c), or within wavemaker.start where that is longer.
 
     Raises ValueError if the height is not positive or not below 0.78 h, or if a stroke is given.
     """

@@ -15,9 +15,9 @@ POINTS = 64  # of the table to a period of a sine; more for a sharp crest
 def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     """Paddle dX/dt = c eta / (h + eta), eta of a wave of permanent form at the moving face.
 
-    In a closed tank as much water goes back as forward, so the depth-mean velocity is exactly that,
-    and with theta = k (X - c t) it is h dtheta + eta dtheta = - h k c dt: the motion has a closed
-    form and closes after each period. It starts where eta = 0 rises, at rest, the crest first.
+    In a closed tank as much water goes back as forward, so this is exactly the depth-mean velocity.
+    With theta = k (X - c t) it is h dtheta + eta dtheta = - h k c dt: the motion has a closed form
+    and closes after each period. It starts at rest, where eta = 0 and rises: the crest comes first.
 
     Raises ValueError if height or period is not positive, a stroke is given, or there is no such
     wave (`mpslab.theory.stream_function.solve`).
@@ -76,7 +76,7 @@ def one_period(wave):
 
 
 def _angle(wave, start, turned):
-    """Angle k (X - c t) of the moving face: h angle + volume(angle) falls evenly, by Newton."""
+    """Angle k (X - c t) of the moving face, by Newton: h angle + volume(angle) falls evenly."""
     angle = start - turned
     goal = wave.depth * (start - turned) + wave.volume(start)
     for _ in range(50):

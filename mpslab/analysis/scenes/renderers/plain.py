@@ -1,4 +1,4 @@
-"""Drawn with numpy alone: pixel by pixel, what is nearest to the eye.
+"""Draws with numpy alone: each pixel shows what is nearest to the eye.
 
 Spheres and triangles become fragments, each a pixel, a depth and a colour, and a pixel takes the
 nearest. The picture is drawn twice as large and made smaller, which smooths its edges.
@@ -10,7 +10,7 @@ import numpy as np
 
 from mpslab.analysis.scenes.light import lit
 
-FINE = 2  # pixels drawn for each that is returned, along each side
+FINE = 2  # pixels drawn for each pixel returned, along each side
 FINEST = 24  # points along a side of a triangle
 
 
@@ -63,7 +63,7 @@ class _Canvas:
         self.colour[index[nearer]] = colour
 
     def surface(self, points, triangles, colours):
-        """Triangles, each as points so close that they leave no gap."""
+        """Triangles, each drawn as points so close together that they leave no gap."""
         if not len(triangles):
             return
         place = self.view.project(points)
@@ -99,7 +99,7 @@ class _Canvas:
         self.colour[index[nearest]] = colour[nearest]
 
     def spheres(self, centres, radius, colours, gloss):
-        """Spheres, lit; far ones first, so that of those in a pixel the nearest comes last."""
+        """Spheres, lit; far ones first, so that the nearest one in a pixel comes last."""
         order = np.argsort(-self.view.depth(centres))
         centres, colours = centres[order], colours[order]
         place, depth = self.view.project(centres), self.view.depth(centres)

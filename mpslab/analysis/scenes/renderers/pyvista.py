@@ -1,4 +1,4 @@
-"""Drawn by VTK, off screen; without a graphics card or an X server, too."""
+"""Draws with VTK, off screen; it needs neither a graphics card nor an X server."""
 
 import numpy as np
 import pyvista
@@ -27,7 +27,7 @@ def render(scene):
 
 
 class _silence:
-    """VTK says on stderr that there is no X server, and takes another way."""
+    """Keeps VTK quiet, which says on stderr that there is no X server and does without."""
 
     def __enter__(self):
         self.earlier = vtk.vtkLogger.GetCurrentVerbosityCutoff()
@@ -54,7 +54,7 @@ def _add_surface(plotter, scene):
 
 
 def _add_spheres(plotter, scene):
-    """Each a square that faces the eye, on which a shader draws a sphere."""
+    """Spheres: each is a square that faces the eye, on which a shader draws a sphere."""
     if not len(scene.spheres):
         return
     cloud = pyvista.PolyData(scene.spheres)
