@@ -17,7 +17,68 @@ from mpslab.solids import parts
 AXES = 3
 
 
-class Reaction:
+class Exchange:
+    """What some solids have a part in, of all that changes the velocity of the water in a step."""
+
+    def find(self, near, masks):
+        """Find the pairs of the water with the solids of each mask, (n,) bool, among all pairs."""
+        self.place = near.particles.position.copy()
+        self.pairs = [_with_solids(near, mask) for mask in masks]
+        self.changes = [np.zeros_like(near.particles.velocity) for _ in self.pairs]
+
+    def add(self, near, act):
+        """Note what the solids do to the water: what `act` gives for their pairs.
+
+        near : Neighbourhood
+        act : callable
+            Takes a `Neighbourhood`, gives the change of velocity of its particles, (n, 3) [m/s].
+        """
+        for change, pairs in zip(self.changes, self.pairs, strict=True):
+            change += act(near.only(*pairs))
+
+    def stabilise(self, near, act):
+        """As `add` for an `act` that changes the velocity of a `Neighbourhood`'s particles in
+        place.
+        """
+
+        def change(some):
+            start = near.particles.velocity
+            tried = replace(
+                near.particles, position=near.particles.position.copy(), velocity=start.copy()
+            )
+            act(some.of(tried))
+            return tried.velocity - start
+
+        self.add(near, change)
+
+    def beside(self, number, particles, owned):
+        """Rows of the water of this rank that has pairs with the solids of a mask."""
+        water = np.zeros(len(particles), bool)
+        water[owned] = particles.fluid[owned]
+        return np.flatnonzero(water & (np.diff(self.pairs[number][0]) > 0))
+
+    def on_solid(self, change, rows, about, width=0.0):
+        """Velocity that the solids get from the rows of the water, less its sign, and its moment.
+
+        Parameters
+        ----------
+        change : (m, 3) float64 [m/s]
+            Of the velocity of these rows.
+        about : (3,) float64 [m]
+        width : float [m]
+            Period across the tank, if an arm is to reach the nearest image.
+
+        Returns
+        -------
+        (m, 6) float64 [m/s, m2/s]
+        """
+        arm = self.place.take(rows, 0) - about
+        if width:
+            arm[:, 1] -= width * np.round(arm[:, 1] / width)
+        return -np.hstack([change, np.cross(arm, change)])
+
+
+class Reaction(Exchange):
     """Adds up what solids give the water, from step to step.
 
     Parameters
@@ -57,39 +118,12 @@ class Reaction:
         before : (n, 3) float64 [m/s], their velocities at the start of the step
         """
         self._before, self._pushed = before, particles.velocity.copy()
-        self._place = particles.position.copy()
 
     def find(self, near):
         """Find the pairs of the water with solids among those of the step."""
         particles = near.particles
         masks = [parts.mask(self.case, particles, name) for name, _ in self.wanted]
-        self._pairs = [_with_solids(near, mask) for mask in [~particles.fluid, *masks]]
-        self._changes = [np.zeros_like(particles.velocity) for _ in self._pairs]
-
-    def add(self, near, act):
-        """Note what solids do to the water: what `act` gives for their pairs.
-
-        near : Neighbourhood
-        act : callable
-            Takes a `Neighbourhood`, gives the change of velocity of its particles, (n, 3) [m/s].
-        """
-        for change, pairs in zip(self._changes, self._pairs, strict=True):
-            change += act(near.only(*pairs))
-
-    def stabilise(self, near, act):
-        """As `add` for an `act` that changes the velocity of a `Neighbourhood`'s particles in
-        place.
-        """
-
-        def change(some):
-            start = near.particles.velocity
-            tried = replace(
-                near.particles, position=near.particles.position.copy(), velocity=start.copy()
-            )
-            act(some.of(tried))
-            return tried.velocity - start
-
-        self.add(near, change)
+        super().find(near, [~particles.fluid, *masks])
 
     def end(self, flow, dt):
         """Add up the step, of all ranks, while its ghosts are still there."""
@@ -97,13 +131,11 @@ class Reaction:
         water = np.zeros(len(particles), bool)
         water[domain.owned] = particles.fluid[domain.owned]
         water = np.flatnonzero(water)
-        near = water[np.diff(self._pairs[0][0])[water] > 0]
+        near = self.beside(0, particles, domain.owned)
         before = self._before.take(water, 0)
-        by_all, *by_each = (change.take(near, 0) for change in self._changes)
-        place = self._place.take(near, 0)
-        moments = [np.cross(place - about, change)
-                   for (_, about), change in zip(self.wanted, by_each, strict=True)]  # fmt: skip
-        on = [-part for pair in zip(by_each, moments, strict=True) for part in pair]
+        by_all, *by_each = (change.take(near, 0) for change in self.changes)
+        on = [self.on_solid(change, near, about)
+              for (_, about), change in zip(self.wanted, by_each, strict=True)]  # fmt: skip
         mass = self.case.fluid.density * flow.stencil.spacing**flow.stencil.dim
         self.sums += mass * domain.totals(
             (water, particles.velocity.take(water, 0) - before),

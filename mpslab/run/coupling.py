@@ -1,0 +1,151 @@
+"""How water and free bodies move each other in a step.
+
+The pressure equation knows the acceleration of a body: it stands in the pull on its particles
+(`mpslab.models.wall_pressure`). So pressure and accelerations are unknowns together. They are found
+in two solves: the first with the accelerations of the last step; the forces that it gives, and the
+added mass of the bodies, tell the accelerations to take; the second solve, which starts from the
+first, has the pressure for these. What its forces still differ from mass times acceleration is made
+good in the next step (`mpslab.solids.floating`).
+
+The added mass is that of the discrete equations: the forces by the pressure that answers a unit
+acceleration. It is found anew every few steps; until then the water has hardly changed.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from mpslab.models import wall_pressure
+from mpslab.models.reaction import Exchange
+from mpslab.pressure.system import SolverReport
+from mpslab.run import pressing
+from mpslab.solids.fleet import Fleet
+from mpslab.solids.floating import Floating
+
+EVERY = 20  # steps: the added mass is found anew
+TOLERANCE = 1e-3  # of its pressures
+
+
+def coupling_of(case, solids, forcings):
+    """The coupling of a run, None without free bodies."""
+    bodies = [one for one in solids.bodies.values() if isinstance(one, Floating)]
+    return Coupling(case, Fleet(bodies, forcings)) if bodies else None
+
+
+class Coupling(Exchange):
+    """Finds velocities of free bodies and the pressure together, step by step.
+
+    Parameters
+    ----------
+    case : mpslab.core.parameters.Case
+    fleet : mpslab.solids.fleet.Fleet
+    """
+
+    def __init__(self, case, fleet):
+        self.case, self.fleet = case, fleet
+
+    def begin(self, particles, before):
+        """The particles of a step, ghosts among them."""
+        self._started = False
+
+    def find(self, near):
+        """Find the pairs of the water with each body."""
+        body = near.particles.body
+        super().find(near, [body == one.body for one in self.fleet.bodies])
+
+    def solve(self, flow, system, rows, pull, before, dt):
+        """Solve for the pressure, and aim the bodies; returns the solvers' report.
+
+        Parameters are those of `mpslab.run.pressing.solve`, and ``before`` those of
+        `mpslab.models.wall_pressure.pull`.
+        """
+        fleet, particles = self.fleet, flow.particles
+        fleet.begin(flow.time, dt)
+        solution = particles.pressure[rows]
+        first = pressing.solve(flow, system, rows, pull, solution)
+        if not len(fleet.free):
+            return first
+        self._find_added(flow, system, rows, dt)
+        fleet.respond(self._given(flow, dt), dt)
+        changed = self._push(flow, pull, dt)
+        system.right += self._flux(flow, changed - pull)[rows]
+        second = pressing.solve(flow, system, rows, changed, solution)
+        return SolverReport(
+            first.iterations + second.iterations, second.residual,
+            first.converged and second.converged, first.replaced, max(first.coarse, second.coarse),
+        )  # fmt: skip
+
+    def _push(self, flow, pull, dt):
+        """Give the bodies' particles the velocity aimed at; returns the pull on all particles."""
+        particles, found = flow.particles, pull.copy()
+        for one in self.fleet.bodies:
+            mine = np.flatnonzero(particles.body == one.body)
+            old = particles.velocity[mine]
+            one.push(particles, mine, flow.time, dt)
+            found[mine] -= (particles.velocity[mine] - old) / dt
+        return found
+
+    def _flux(self, flow, pull):
+        return wall_pressure.flux(flow.near, flow.laplacian_stencil, flow.pair_terms, pull)
+
+    def _find_added(self, flow, system, rows, dt):
+        """Find the added mass of all bodies, if it is time."""
+        bodies = self.fleet.bodies
+        size = 6 * len(bodies)
+        if all(0 <= one.age < EVERY for one in bodies):
+            return
+        found, right = np.zeros((size, size)), system.right
+        for k in self.fleet.free:
+            pull = self._unit_pull(flow, k)
+            system.right, answer = self._flux(flow, pull)[rows], np.zeros(len(rows))
+            flow.solver.solve(system, answer, TOLERANCE, flow.case.scheme.max_iterations)
+            found[:, k] = -self._force(flow, rows, answer, pull)
+        system.right = right
+        for k, one in enumerate(bodies):
+            one.added, one.age = found[6 * k : 6 * k + 6], 0
+
+    def _unit_pull(self, flow, k):
+        """Pull on all particles by a unit acceleration of mode k alone, (n, 3)."""
+        particles, (number, mode) = flow.particles, divmod(int(k), 6)
+        body, pull = self.fleet.bodies[number], np.zeros_like(flow.particles.velocity)
+        mine = np.flatnonzero(particles.body == body.body)
+        axis = np.eye(3)[mode % 3]
+        pull[mine] = -axis if mode < 3 else -np.cross(axis, self._arm(flow, body, mine))
+        return pull
+
+    def _arm(self, flow, body, rows):
+        """From the centre of a body to particles, (m, 3) [m]."""
+        arm, width = flow.particles.position[rows] - body.center, flow.stencil.width
+        if width:
+            arm[:, 1] -= width * np.round(arm[:, 1] / width)
+        return arm
+
+    def _force(self, flow, rows, answer, pull):
+        """Forces on all bodies by a pressure that solves the equation, (6 bodies,)."""
+        particles = replace(flow.particles, pressure=np.zeros(len(flow.particles)))
+        particles.pressure[rows] = answer
+        wall_pressure.fill(flow.near.of(particles), flow.case.fluid.density, pull, False)
+        flow.domain.refresh(particles.pressure)
+        near, act = pressing.push(flow, 1.0, particles)
+        return self._impulses(flow, [act(near.only(*pairs)) for pairs in self.pairs]).ravel()
+
+    def _given(self, flow, dt):
+        """Impulses of the water in the step so far, and those that the pressure will give."""
+        near, act = pressing.push(flow, dt)
+        return self._impulses(flow, [
+            so_far + act(near.only(*pairs))
+            for so_far, pairs in zip(self.changes, self.pairs, strict=True)
+        ])  # fmt: skip
+
+    def _impulses(self, flow, changes):
+        """Impulses (bodies, 6) [N s, N m s] for changes of the water's velocity by each."""
+        domain, width = flow.domain, flow.stencil.width
+        rows = [self.beside(k, flow.particles, domain.owned) for k in range(len(changes))]
+        parts = [(mine, self.on_solid(change.take(mine, 0), mine, one.center, width))
+                 for one, mine, change in zip(self.fleet.bodies, rows, changes, strict=True)]  # fmt: skip
+        mass = flow.case.fluid.density * flow.stencil.spacing**flow.stencil.dim
+        return mass * domain.totals(*parts).reshape(-1, 6)
+
+    def end(self, flow, dt):
+        """End the step, while its ghosts are still there."""
+        self.fleet.arrive(self._impulses(flow, self.changes), dt)
