@@ -36,7 +36,10 @@ def matrix(quaternion):
 def apply(matrix_, points):
     """The points (n, 3) turned by a matrix, (n, 3)."""
     x, y, z = np.asarray(points).T
-    return np.column_stack([row[0] * x + row[1] * y + row[2] * z for row in matrix_])
+    out = np.empty((len(x), 3))
+    for k, (a, b, c) in enumerate(matrix_):
+        out[:, k] = a * x + b * y + c * z
+    return out
 
 
 def angles(matrix_):

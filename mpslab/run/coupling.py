@@ -20,16 +20,14 @@ from mpslab.models.reaction import Exchange
 from mpslab.pressure.system import SolverReport
 from mpslab.run import pressing
 from mpslab.solids.fleet import Fleet
-from mpslab.solids.floating import Floating
 
 EVERY = 20  # steps: the added mass is found anew
-TOLERANCE = 1e-3  # of its pressures
+ROUGH = 1e-3  # residual of its pressures, and of the first solve of a step
 
 
 def coupling_of(case, solids, forcings):
     """The coupling of a run, None without free bodies."""
-    bodies = [one for one in solids.bodies.values() if isinstance(one, Floating)]
-    return Coupling(case, Fleet(bodies, forcings)) if bodies else None
+    return Coupling(case, Fleet(case, solids, forcings)) if solids.free else None
 
 
 class Coupling(Exchange):
@@ -45,8 +43,7 @@ class Coupling(Exchange):
         self.case, self.fleet = case, fleet
 
     def begin(self, particles, before):
-        """The particles of a step, ghosts among them."""
-        self._started = False
+        """Nothing has to be known of what acts on each particle alone."""
 
     def find(self, near):
         """Find the pairs of the water with each body."""
@@ -62,11 +59,11 @@ class Coupling(Exchange):
         fleet, particles = self.fleet, flow.particles
         fleet.begin(flow.time, dt)
         solution = particles.pressure[rows]
-        first = pressing.solve(flow, system, rows, pull, solution)
         if not len(fleet.free):
-            return first
+            return pressing.solve(flow, system, rows, pull, solution)
+        first = pressing.solve(flow, system, rows, pull, solution, ROUGH)
         self._find_added(flow, system, rows, dt)
-        fleet.respond(self._given(flow, dt), dt)
+        fleet.respond(self._given(flow, dt))
         changed = self._push(flow, pull, dt)
         system.right += self._flux(flow, changed - pull)[rows]
         second = pressing.solve(flow, system, rows, changed, solution)
@@ -98,7 +95,7 @@ class Coupling(Exchange):
         for k in self.fleet.free:
             pull = self._unit_pull(flow, k)
             system.right, answer = self._flux(flow, pull)[rows], np.zeros(len(rows))
-            flow.solver.solve(system, answer, TOLERANCE, flow.case.scheme.max_iterations)
+            flow.solver.solve(system, answer, ROUGH, flow.case.scheme.max_iterations)
             found[:, k] = -self._force(flow, rows, answer, pull)
         system.right = right
         for k, one in enumerate(bodies):
@@ -110,15 +107,8 @@ class Coupling(Exchange):
         body, pull = self.fleet.bodies[number], np.zeros_like(flow.particles.velocity)
         mine = np.flatnonzero(particles.body == body.body)
         axis = np.eye(3)[mode % 3]
-        pull[mine] = -axis if mode < 3 else -np.cross(axis, self._arm(flow, body, mine))
+        pull[mine] = -axis if mode < 3 else -np.cross(axis, body.arm(particles.position[mine]))
         return pull
-
-    def _arm(self, flow, body, rows):
-        """From the centre of a body to particles, (m, 3) [m]."""
-        arm, width = flow.particles.position[rows] - body.center, flow.stencil.width
-        if width:
-            arm[:, 1] -= width * np.round(arm[:, 1] / width)
-        return arm
 
     def _force(self, flow, rows, answer, pull):
         """Forces on all bodies by a pressure that solves the equation, (6 bodies,)."""
@@ -127,25 +117,23 @@ class Coupling(Exchange):
         wall_pressure.fill(flow.near.of(particles), flow.case.fluid.density, pull, False)
         flow.domain.refresh(particles.pressure)
         near, act = pressing.push(flow, 1.0, particles)
-        return self._impulses(flow, [act(near.only(*pairs)) for pairs in self.pairs]).ravel()
+        return self._impulses(flow, self.parts(near, act)).ravel()
 
     def _given(self, flow, dt):
         """Impulses of the water in the step so far, and those that the pressure will give."""
-        near, act = pressing.push(flow, dt)
-        return self._impulses(flow, [
-            so_far + act(near.only(*pairs))
-            for so_far, pairs in zip(self.changes, self.pairs, strict=True)
-        ])  # fmt: skip
+        now = self.parts(*pressing.push(flow, dt))
+        return self._impulses(flow, [a + b for a, b in zip(self.changes, now, strict=True)])
 
     def _impulses(self, flow, changes):
         """Impulses (bodies, 6) [N s, N m s] for changes of the water's velocity by each."""
-        domain, width = flow.domain, flow.stencil.width
-        rows = [self.beside(k, flow.particles, domain.owned) for k in range(len(changes))]
-        parts = [(mine, self.on_solid(change.take(mine, 0), mine, one.center, width))
-                 for one, mine, change in zip(self.fleet.bodies, rows, changes, strict=True)]  # fmt: skip
+        domain, width, bodies = flow.domain, flow.stencil.width, self.fleet.bodies
+        parts = [
+            self.totals(domain, k, self.on_solid(k, change, bodies[k].center, width))
+            for k, change in enumerate(changes)
+        ]
         mass = flow.case.fluid.density * flow.stencil.spacing**flow.stencil.dim
         return mass * domain.totals(*parts).reshape(-1, 6)
 
     def end(self, flow, dt):
         """End the step, while its ghosts are still there."""
-        self.fleet.arrive(self._impulses(flow, self.changes), dt)
+        self.fleet.arrive(self._impulses(flow, self.changes))

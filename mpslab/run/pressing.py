@@ -8,16 +8,20 @@ from mpslab.models import copied, wall_pressure
 from mpslab.pressure import equation
 
 
-def solve(flow, system, rows, pull, solution=None):
+def solve(flow, system, rows, pull, solution=None, tolerance=0.0):
     """Solve for the pressure, and give the walls theirs; returns the solver's report.
 
+    Parameters
+    ----------
     solution : (m,) float64 [Pa], optional
         Where to start, and what was found, in place.
+    tolerance : float
+        Of the residual, if it is to be larger than that of the scheme.
     """
     particles, scheme = flow.particles, flow.case.scheme
     report = equation.solve(
-        system, rows, particles, flow.solver, scheme.tolerance, scheme.max_iterations,
-        scheme.clip_pressure, solution,
+        system, rows, particles, flow.solver, max(tolerance, scheme.tolerance),
+        scheme.max_iterations, scheme.clip_pressure, solution,
     )  # fmt: skip
     if flow.extrapolates:
         wall_pressure.fill(flow.near, flow.case.fluid.density, pull, scheme.clip_pressure)

@@ -115,7 +115,7 @@ def _add_viscosity(flow, dt):
     eddy = friction.eddies(flow.near, scheme, flow.domain.refresh)
 
     def change(near):
-        return dt * friction.acceleration(near, flow.laplacian_stencil, eddy, fluid, scheme)
+        return dt * friction.acceleration(near, flow.laplacian_stencil, near.pick(eddy), fluid, scheme)
 
     if scheme.wall_slip:
         flow.particles.velocity += change(flow.near)  # no solid has a part in it

@@ -58,6 +58,11 @@ class Solids:
         self.felt = [body for body, solid in self.moving.items() if not solid.jumps]
 
     @property
+    def free(self):
+        """The bodies that the water moves, in their order."""
+        return [one for one in self.bodies.values() if isinstance(one, floating.Floating)]
+
+    @property
     def piston(self):
         """The piston, None for a tank without one."""
         return self.bodies.get(PISTON)

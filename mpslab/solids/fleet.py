@@ -2,8 +2,10 @@
 
 import numpy as np
 
-from mpslab.forcings import total
 from mpslab.core.particles import make_particles
+from mpslab.forcings import total
+from mpslab.solids.contact import Contact, impulses
+from mpslab.solids.moorings import lines
 from mpslab.theory.algebra import dot, eliminate
 
 
@@ -12,21 +14,26 @@ class Fleet:
 
     Parameters
     ----------
-    bodies : sequence of mpslab.solids.floating.Floating
+    case : mpslab.core.parameters.Case
+    solids : mpslab.solids.collection.Solids
     forcings : tuple
         Of the run: a body is pulled as water at its centre of mass would be.
     """
 
-    def __init__(self, bodies, forcings):
-        self.bodies, self.forcings = tuple(bodies), forcings
-        self.outer = np.zeros((len(self.bodies), 6))
+    def __init__(self, case, solids, forcings):
+        self.bodies, self.forcings = solids.free, forcings
+        self.lines = lines(case, self.bodies)
+        self.contact = Contact(case, solids, self.bodies)
 
     def begin(self, time, dt):
         """Find what acts on the bodies from outside of the water in a step."""
+        self.time, self.dt = time, dt
         self.free = np.flatnonzero(
             np.concatenate([body.free & (not body.held(time)) for body in self.bodies])
         )
         self.outer = np.array([dt * self._weight(body, time + 0.5 * dt) for body in self.bodies])
+        for line in self.lines:
+            self.outer[self.bodies.index(line.body)] += dt * line.force()
 
     def _weight(self, body, time):
         there = make_particles(body.center[np.newaxis], [0])
@@ -34,21 +41,32 @@ class Fleet:
         pull = np.broadcast_to(total(self.forcings, there, time), (1, 3))[0]
         return np.concatenate([body.mass * pull, np.zeros(3)])
 
-    def respond(self, given, dt):
-        """Aim at the velocities for which momentum and velocity agree.
+    def respond(self, given):
+        """Aim at the velocities for which momentum and velocity agree, and which contacts allow.
 
         Parameters
         ----------
         given : (bodies, 6) float64 [N s, N m s]
             Impulses of the water on the bodies, at the velocities that they aim at so far.
         """
+        aimed = np.array([body.aimed for body in self.bodies])
         lack = [body.momentum + given[k] + self.outer[k] - body.times_mass(body.aimed)
                 for k, body in enumerate(self.bodies)]  # fmt: skip
-        change = np.zeros(6 * len(self.bodies))
-        free = self.free
-        change[free] = eliminate(self.resistance()[np.ix_(free, free)], np.ravel(lack)[free])
-        for body, part in zip(self.bodies, change.reshape(-1, 6), strict=True):
-            body.aim(body.aimed + part, dt)
+        free, velocity = self.free, aimed.ravel()
+        resistance = self.resistance()[np.ix_(free, free)]
+        velocity[free] += eliminate(resistance, np.ravel(lack)[free])
+        rows, least = self.contact.limits(self.time, self.dt, velocity.reshape(-1, 6))
+        if len(rows):
+            mobility = np.zeros((len(velocity), len(velocity)))
+            mobility[np.ix_(free, free)] = np.column_stack(
+                [eliminate(resistance, unit) for unit in np.eye(len(free))]
+            )
+            struck = impulses(rows, least, velocity, mobility)
+            velocity = velocity + dot(mobility, struck)
+            self.outer += struck.reshape(-1, 6)
+        for body, one in zip(self.bodies, velocity.reshape(-1, 6), strict=True):
+            if not body.held(self.time):
+                body.aim(one, self.dt)
 
     def resistance(self):
         """Mass and added mass of all bodies, (6 bodies, 6 bodies)."""
@@ -57,7 +75,7 @@ class Fleet:
             found[6 * k : 6 * k + 6, 6 * k : 6 * k + 6] += body.mass_matrix()
         return found
 
-    def arrive(self, given, dt):
+    def arrive(self, given):
         """End a step in which the water gave the bodies impulses (bodies, 6)."""
         for body, got, more in zip(self.bodies, given, self.outer, strict=True):
-            body.arrive(dt, body.momentum + got + more)
+            body.arrive(self.dt, body.momentum + got + more)

@@ -12,7 +12,7 @@ about axes through the centre of mass in these directions.
 
 import numpy as np
 
-from mpslab.core import rotation
+from mpslab.core import lattice, rotation
 from mpslab.core.mooring import MODES
 from mpslab.core.particles import FIRST_SOLID
 from mpslab.solids.mass import bulk
@@ -51,6 +51,10 @@ class Floating(Shaped):
     ----------
     body : int
         Its number among the bodies of the particles.
+    width : float [m]
+        Period across the tank, 0 when not periodic.
+    reach : float [m]
+        No point of it is farther from its centre.
     mass, inertia : as of `weigh`; the inertia about axes that turn with the body
     center : (3,) float64 [m]
         Centre of mass.
@@ -75,9 +79,13 @@ class Floating(Shaped):
         self.body = FIRST_SOLID + len(case.obstacle) + len(case.gate) + number
         self.mass, self.start, self.inertia = weigh(case, number)
         self.release = given.release
+        periodic = case.dim == 3 and case.tank.periodic
+        self.width = lattice.rows_across(case) * case.particles.spacing if periodic else 0.0
         free = FLAT if case.dim == 2 else MODES
         self.free = np.zeros(6, bool)
         self.free[[INDEX[mode] for mode in free if mode not in given.locked]] = True
+        corners = np.maximum(self.shape.high - self.start, self.start - self.shape.low)
+        self.reach = np.sqrt(np.sum(np.where(np.isfinite(corners), corners, 0.0) ** 2))
         self.gid, self.rest = np.zeros(0, int), np.zeros((0, 3))
         self.center, self.turn = self.start.copy(), rotation.STILL.copy()
         self.velocity = np.where(self.free, [*given.velocity, 0.0, 0.0, 0.0], 0.0)
@@ -132,12 +140,14 @@ class Floating(Shaped):
                       rotation.turned(self.turn, velocity[3:], dt))  # fmt: skip
 
     def push(self, particles, rows, time, dt):
-        now = self.places(self._rest_of(particles, rows))
-        then = self.places(self._rest_of(particles, rows), *self._next)
-        particles.velocity[rows] = (then - now) / dt
+        (center, turn), rest = self._next, self._rest_of(particles, rows)
+        turning = rotation.matrix(turn) - rotation.matrix(self.turn)
+        step = center - self.center + rotation.apply(turning, rest)
+        particles.velocity[rows] = step / dt
 
     def move(self, particles, rows, time, dt):
-        particles.position[rows] = self.places(self._rest_of(particles, rows), *self._next)
+        (center, turn), rest = self._next, self._rest_of(particles, rows)
+        particles.position[rows] = center + rotation.apply(rotation.matrix(turn), rest)
 
     def arrive(self, dt, momentum):
         """The step is done: where the body is, and the momentum (6,) that it has got."""
@@ -146,17 +156,29 @@ class Floating(Shaped):
         self.velocity, (self.center, self.turn) = self.aimed, self._next
         self.age += self.age >= 0
 
-    def places(self, rest, center=None, turn=None):
-        """Where points (n, 3) [m] of the body are, as it lies now or as told; `rest` is as it was
-        laid out, from the centre of mass.
-        """
-        center, turn = (self.center, self.turn) if center is None else (center, turn)
-        return center + rotation.apply(rotation.matrix(turn), rest)
+    def places(self, rest):
+        """Where points of the body are; `rest` (n, 3) [m] as laid out, from the centre of mass."""
+        return self.center + rotation.apply(rotation.matrix(self.turn), rest)
 
     def laid_out(self, points):
         """Where places (n, 3) [m] would be if they went with the body back to its start."""
         back = rotation.matrix(self.turn).T
-        return self.start + rotation.apply(back, points - self.center)
+        return self.start + rotation.apply(back, self.arm(points))
+
+    def arm(self, points):
+        """From its centre to places (n, 3) [m]; in a periodic tank to the nearest image."""
+        found = points - self.center
+        if self.width:
+            found[:, 1] -= self.width * np.round(found[:, 1] / self.width)
+        return found
+
+    def deep_inside(self, points):
+        """Which places (n, 3) [m] are more than a spacing inside it as it lies now, (n,) bool."""
+        found = np.zeros(len(points), bool)
+        near = np.flatnonzero(np.sum(self.arm(points) ** 2, axis=1) < self.reach**2)
+        depth = -self.shape.distance(self.laid_out(points[near]))
+        found[near] = depth > self.case.particles.spacing
+        return found
 
     def _rest_of(self, particles, rows):
         return self.rest[np.searchsorted(self.gid, particles.gid[rows])]
