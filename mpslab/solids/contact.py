@@ -102,7 +102,8 @@ def targets(case, solids):
     found = [Target("tank", Tank(case))]
     if solids.piston:
         behind = Box([-np.inf] * 3, [0.0, np.inf, np.inf])
-        found.append(Target("piston", behind, solids.piston.motion))
+        motion = solids.piston.motion if solids.piston.paddle else None
+        found.append(Target("piston", behind, motion))
     for box, ends in zip(case.obstacle, obstacles.blocks(case), strict=True):
         found.append(Target(box.name, Box(*(ends * case.particles.spacing))))
     by_name = {solid.name: solid for solid in solids.bodies.values()}

@@ -116,10 +116,13 @@ class Floating(Shaped):
         return np.sum(self.mass_matrix() * velocity, axis=1)
 
     def begin(self, particles):
-        """Find its particles, and give them the velocity that they start with."""
+        """Find its particles."""
         mine = np.flatnonzero(particles.body == self.body)
         self.gid, self.rest = particles.gid[mine], particles.position[mine] - self.start
-        particles.velocity[mine] = self.velocity[:3]
+
+    def set_off(self, particles):
+        """Give its particles the velocity that they start with."""
+        particles.velocity[particles.body == self.body] = self.velocity[:3]
 
     def state(self):
         return {"gid": self.gid, "rest": self.rest, "center": self.center, "turn": self.turn,
