@@ -86,8 +86,7 @@ def gaps_of(case):
     solids = solids_of(case)
     contact = Contact(case, solids, solids.free)
     return [
-        {name: round(gap, 6) for name, gap in contact.gaps(k, 0.0)}
-        for k in range(len(solids.free))
+        {name: round(gap, 6) for name, gap in contact.gaps(k, 0.0)} for k in range(len(solids.free))
     ]
 
 

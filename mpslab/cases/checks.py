@@ -22,8 +22,8 @@ MOST_PARTICLES = 1e9
 
 # How many tables, or points, there may be under a key.
 MOST = {
-    "water": 100, "obstacle": 100, "gate": 100, "solid": 100, "mooring": 100, "sponge": 100, "gauge": 1000,
-    "probe": 1000, "runup": 100, "overtopping": 100,
+    "water": 100, "obstacle": 100, "gate": 100, "solid": 100, "mooring": 100, "sponge": 100,
+    "gauge": 1000, "probe": 1000, "runup": 100, "overtopping": 100,
 }  # fmt: skip
 MOST_POINTS, MOST_PICTURES = 2000, 1000
 

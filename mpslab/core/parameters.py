@@ -157,9 +157,7 @@ class Solid:
     period: float = key("period of the sine", 0.0, unit="s", low=0)
     start: float = key("time in which the motion fades in; 0 for none", 0.0, unit="s", low=0)
     about: tuple = key("axis of the roll [x, z]", (0.0, 0.0), kind="place", unit="m")
-    density: float = key(
-        "mean density of a free body; or mass", 0.0, unit="kg/m3", low=0, high=1e6
-    )
+    density: float = key("mean density of a free body; or mass", 0.0, unit="kg/m3", low=0, high=1e6)
     mass: float = key("mass of a free body", 0.0, unit="kg, in 2-D kg/m", low=0)
     center_of_mass: tuple | None = key(
         "centre of mass [x, y, z] of a free body; that of its shape if left out",

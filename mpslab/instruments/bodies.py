@@ -1,4 +1,4 @@
-"""Free bodies: where they are, how they are turned, how fast they go, and the pull of their lines."""
+"""Free bodies: places, angles and velocities, and the pull of their moorings."""
 
 import numpy as np
 

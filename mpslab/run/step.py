@@ -115,7 +115,8 @@ def _add_viscosity(flow, dt):
     eddy = friction.eddies(flow.near, scheme, flow.domain.refresh)
 
     def change(near):
-        return dt * friction.acceleration(near, flow.laplacian_stencil, near.pick(eddy), fluid, scheme)
+        mine = near.pick(eddy)
+        return dt * friction.acceleration(near, flow.laplacian_stencil, mine, fluid, scheme)
 
     if scheme.wall_slip:
         flow.particles.velocity += change(flow.near)  # no solid has a part in it

@@ -10,7 +10,8 @@ from mpslab.solids.tank import Tank
 
 # The name of a user's solid: without a dot, which stands between it and the key of its state.
 OWN_NAME = {**NAME, "forbidden": NAME["forbidden"] + ".", "unit": ""}
-KINDS = (obstacles, gates, floating)  # that a case may have several of, in the order of their bodies
+# What a case may have several of, in the order of their bodies.
+KINDS = (obstacles, gates, floating)
 
 
 def solids_of(case, paddle=None, own=(), backmost=0.0):

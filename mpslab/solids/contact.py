@@ -81,14 +81,15 @@ class Target:
 def _back(moved, center, points):
     """Where places were before a motion of the plane x-z."""
     x, z, angle = moved
-    shifted = points - [center[0] + x, 0.0, center[1] + z]
-    return _turn(shifted, -angle) + [center[0], 0.0, center[1]]
+    axis, gone = np.array([center[0], 0.0, center[1]]), np.array([x, 0.0, z])
+    return axis + _turn(points - axis - gone, -angle)
 
 
 def _forth(moved, center, points):
     """Where places come to by a motion of the plane x-z."""
     x, z, angle = moved
-    return _turn(points - [center[0], 0.0, center[1]], angle) + [center[0] + x, 0.0, center[1] + z]
+    axis, gone = np.array([center[0], 0.0, center[1]]), np.array([x, 0.0, z])
+    return axis + gone + _turn(points - axis, angle)
 
 
 def _turn(points, angle):

@@ -78,4 +78,5 @@ class Fleet:
     def arrive(self, given):
         """End a step in which the water gave the bodies impulses (bodies, 6)."""
         for body, got, more in zip(self.bodies, given, self.outer, strict=True):
-            body.arrive(self.dt, body.momentum + got + more)
+            held = body.held(self.time)  # and gives back what it gets
+            body.arrive(self.dt, body.momentum + (0.0 if held else got + more))

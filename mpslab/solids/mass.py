@@ -76,9 +76,9 @@ def _polygon(corners):
     twice = a[:, 0] * b[:, 1] - b[:, 0] * a[:, 1]
     area = 0.5 * np.sum(twice)
     center = np.sum(twice[:, None] * (a + b), axis=0) / (6.0 * area)
-    both = [np.sum(twice * (2.0 * a[:, i] * a[:, j] + a[:, i] * b[:, j] + b[:, i] * a[:, j]
-                            + 2.0 * b[:, i] * b[:, j])) for i in (0, 1) for j in (0, 1)]  # fmt: skip
-    second = np.reshape(both, (2, 2)) / 24.0 - area * np.outer(center, center)
+    outer = [p[:, :, None] * q[:, None, :] for p, q in ((a, a), (a, b), (b, a), (b, b))]
+    pairs = twice[:, None, None] * (2.0 * outer[0] + outer[1] + outer[2] + 2.0 * outer[3])
+    second = np.sum(pairs, axis=0) / 24.0 - area * np.outer(center, center)
     return area, center + origin, second
 
 
