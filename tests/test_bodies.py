@@ -8,6 +8,7 @@ from tanks import make_case
 from mpslab import Simulation
 from mpslab.core import rotation
 from mpslab.core.keys import CaseError
+from mpslab.run.preflight import preflight
 from mpslab.solids import contact, mass
 from mpslab.solids.outlines import Circle, Polygon
 from mpslab.solids.shapes import Prism, Sphere
@@ -144,6 +145,17 @@ def test_held_body_stays_until_it_is_let_go():
     assert 0.5 < body.velocity[2] / (run.time - began) < 0.5 * GRAVITY
 
 
+def test_added_mass_is_found_when_a_body_is_let_go_and_every_twenty_steps():
+    case = tank_with(ball(0.02, 0.015), ball(0.06, 0.015, name="late", release=0.003))
+    run, ages = Simulation(case), []
+    for _ in range(35):
+        run.advance()
+        ages.append([body.age for body in fleet(run).bodies])
+    early, late = np.array(ages).T
+    assert early.max() == late.max() == 20 and late[0] == -1
+    assert early[np.flatnonzero(late >= 0)[0]] == 1
+
+
 def test_locked_body_moves_in_no_other_way():
     run = advance(Simulation(tank_with(ball(0.03, 0.015, locked=["x", "roll"]))), 30)
     (body,) = fleet(run).bodies
@@ -266,6 +278,40 @@ def run_lost(run):
     from mpslab.run.guard import find_lost
 
     return find_lost(run.case, run.particles, 0.0, run._flow.solids.free)
+
+
+# What it tells
+
+
+def test_table_has_place_angle_and_speeds_of_bodies_and_tensions():
+    line = {"name": "chain", "on": "box", "anchor": [0.01, 0.0, 0.01], "at": [0.03, 0.0, 0.02],
+            "stiffness": 100.0, "length": 0.01}  # fmt: skip
+    run = advance(Simulation(tank_with(box(velocity=[0.2, 0.0, 0.0]), mooring=[line])), 30)
+    rows, (body,) = run.table("bodies"), fleet(run).bodies
+    last = rows[-1]
+    assert rows.dtype.names == ("time", "box x", "box z", "box roll", "box u", "box w",
+                                "box roll rate", "chain tension")  # fmt: skip
+    assert last["box x"] == body.center[0] and last["box w"] == body.velocity[2]
+    assert last["box roll rate"] == np.degrees(-body.velocity[4])
+    assert last["box roll"] * last["box roll rate"] > 0.0
+    assert last["chain tension"] == pytest.approx(100.0 * (np.hypot(0.02, 0.01) - 0.01), rel=0.1)
+
+
+def test_check_tells_how_a_body_floats():
+    """Draft of half the height; BM = b^2/12T over a centre of buoyancy half-way up the draft."""
+    found = preflight(tank_with(box(), mooring=[])).findings["bodies"]["box"]
+    assert found["mass [kg]"] == pytest.approx(500.0 * 0.02 * 0.016)
+    assert found["draft [m]"] == pytest.approx(0.008, rel=1e-3)
+    assert found["floats_at [m]"] == pytest.approx(0.03, rel=1e-3)
+    height = 0.02**2 / (12 * 0.008) - 0.004
+    assert found["metacentric_height [m]"] == pytest.approx(height, rel=0.01)
+    assert (found["nearest"], found["smallest_gap [m]"]) == ("tank", pytest.approx(0.02))
+
+
+def test_check_tells_that_a_body_sinks_or_turns_over():
+    assert "it sinks" in preflight(tank_with(box(density=2000.0))).text()
+    tall = [[0.03, 0.01], [0.042, 0.01], [0.042, 0.04], [0.03, 0.04]]
+    assert "is not stable and turns over" in preflight(tank_with(box(tall))).text()
 
 
 # What is refused

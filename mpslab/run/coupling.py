@@ -88,8 +88,8 @@ class Coupling(Exchange):
     def _find_added(self, flow, system, rows, dt):
         """Find the added mass of all bodies, if it is time."""
         bodies = self.fleet.bodies
-        size = 6 * len(bodies)
-        if all(0 <= one.age < EVERY for one in bodies):
+        size, loose = 6 * len(bodies), [one for one in bodies if not one.held(flow.time)]
+        if all(0 <= one.age < EVERY for one in loose):
             return
         found, right = np.zeros((size, size)), system.right
         for k in self.fleet.free:
@@ -99,7 +99,9 @@ class Coupling(Exchange):
             found[:, k] = -self._force(flow, rows, answer, pull)
         system.right = right
         for k, one in enumerate(bodies):
-            one.added, one.age = found[6 * k : 6 * k + 6], 0
+            one.added = found[6 * k : 6 * k + 6]
+        for one in loose:
+            one.age = 0
 
     def _unit_pull(self, flow, k):
         """Pull on all particles by a unit acceleration of mode k alone, (n, 3)."""
