@@ -148,7 +148,7 @@ def test_held_body_stays_until_it_is_let_go():
 def test_added_mass_is_found_when_a_body_is_let_go_and_every_twenty_steps():
     case = tank_with(ball(0.02, 0.015), ball(0.06, 0.015, name="late", release=0.003))
     run, ages = Simulation(case), []
-    for _ in range(35):
+    for _ in range(42):
         run.advance()
         ages.append([body.age for body in fleet(run).bodies])
     early, late = np.array(ages).T

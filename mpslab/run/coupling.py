@@ -59,18 +59,30 @@ class Coupling(Exchange):
         fleet, particles = self.fleet, flow.particles
         fleet.begin(flow.time, dt)
         solution = particles.pressure[rows]
+        clipped = self._apart(particles)
         if not len(fleet.free):
-            return pressing.solve(flow, system, rows, pull, solution)
-        first = pressing.solve(flow, system, rows, pull, solution, ROUGH)
+            return pressing.solve(flow, system, rows, pull, solution, clipped=clipped)
+        first = pressing.solve(flow, system, rows, pull, solution, ROUGH, clipped)
         self._find_added(flow, system, rows, dt)
         fleet.respond(self._given(flow, dt))
         changed = self._push(flow, pull, dt)
         system.right += self._flux(flow, changed - pull)[rows]
-        second = pressing.solve(flow, system, rows, changed, solution)
+        second = pressing.solve(flow, system, rows, changed, solution, clipped=clipped)
         return SolverReport(
             first.iterations + second.iterations, second.residual,
             first.converged and second.converged, first.replaced, max(first.coarse, second.coarse),
         )  # fmt: skip
+
+    def _apart(self, particles):
+        """Which particles are neither of a body nor beside one, (n,) bool.
+
+        Only there the scheme clips the pressure. Below a body it would make a mean of what is
+        noise: a light body, which next to no pressure carries, would rise out of the water.
+        """
+        found = ~np.isin(particles.body, [one.body for one in self.fleet.bodies])
+        for rows in self.beside:
+            found[rows] = False
+        return found
 
     def _push(self, flow, pull, dt):
         """Give the bodies' particles the velocity aimed at; returns the pull on all particles."""
