@@ -22,6 +22,7 @@ from mpslab.run import pressing
 from mpslab.solids.fleet import Fleet
 
 EVERY = 20  # steps: the added mass is found anew
+SUCTION = 2.0  # spacings of water, whose weight may pull at a body
 ROUGH = 1e-3  # residual of its pressures, and of the first solve of a step
 
 
@@ -50,38 +51,42 @@ class Coupling(Exchange):
         body = near.particles.body
         super().find(near, [body == one.body for one in self.fleet.bodies])
 
-    def solve(self, flow, system, rows, pull, before, dt):
-        """Solve for the pressure, and aim the bodies; returns the solvers' report.
+    def solve(self, flow, system, rows, pull, dt):
+        """Solve for the pressure in a step, and aim the bodies; returns the solvers' report.
 
-        Parameters are those of `mpslab.run.pressing.solve`, and ``before`` those of
-        `mpslab.models.wall_pressure.pull`.
+        The system, its rows and the pull are those of `mpslab.run.pressing.solve`, for the
+        velocities that the bodies have aimed at so far.
         """
         fleet, particles = self.fleet, flow.particles
         fleet.begin(flow.time, dt)
         solution = particles.pressure[rows]
-        clipped = self._apart(particles)
+        least = self._least(flow)
         if not len(fleet.free):
-            return pressing.solve(flow, system, rows, pull, solution, clipped=clipped)
-        first = pressing.solve(flow, system, rows, pull, solution, ROUGH, clipped)
-        self._find_added(flow, system, rows, dt)
+            return pressing.solve(flow, system, rows, pull, solution, least=least)
+        first = pressing.solve(flow, system, rows, pull, solution, ROUGH, least)
+        self._find_added(flow, system, rows)
         fleet.respond(self._given(flow, dt))
         changed = self._push(flow, pull, dt)
         system.right += self._flux(flow, changed - pull)[rows]
-        second = pressing.solve(flow, system, rows, changed, solution, clipped=clipped)
+        second = pressing.solve(flow, system, rows, changed, solution, least=least)
         return SolverReport(
             first.iterations + second.iterations, second.residual,
             first.converged and second.converged, first.replaced, max(first.coarse, second.coarse),
         )  # fmt: skip
 
-    def _apart(self, particles):
-        """Which particles are neither of a body nor beside one, (n,) bool.
+    def _least(self, flow):
+        """Pressure that those of the particles are clipped to, (n,) [Pa].
 
-        Only there the scheme clips the pressure. Below a body it would make a mean of what is
-        noise: a light body, which next to no pressure carries, would rise out of the water.
+        That is 0, and beside a body less. To clip at 0 would make a mean of what is noise: a light
+        body, which next to no pressure carries, would rise out of the water. But where a body hits
+        the bed, nothing else holds the water below it together.
         """
-        found = ~np.isin(particles.body, [one.body for one in self.fleet.bodies])
+        fluid, spacing = flow.case.fluid, flow.stencil.spacing
+        found = np.zeros(len(flow.particles))
+        low = -SUCTION * spacing * fluid.density * fluid.gravity
+        found[np.isin(flow.particles.body, [one.body for one in self.fleet.bodies])] = low
         for rows in self.beside:
-            found[rows] = False
+            found[rows] = low
         return found
 
     def _push(self, flow, pull, dt):
@@ -97,7 +102,7 @@ class Coupling(Exchange):
     def _flux(self, flow, pull):
         return wall_pressure.flux(flow.near, flow.laplacian_stencil, flow.pair_terms, pull)
 
-    def _find_added(self, flow, system, rows, dt):
+    def _find_added(self, flow, system, rows):
         """Find the added mass of all bodies, if it is time."""
         bodies = self.fleet.bodies
         size, loose = 6 * len(bodies), [one for one in bodies if not one.held(flow.time)]

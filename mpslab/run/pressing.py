@@ -8,7 +8,7 @@ from mpslab.models import copied, wall_pressure
 from mpslab.pressure import equation
 
 
-def solve(flow, system, rows, pull, solution=None, tolerance=0.0, clipped=None):
+def solve(flow, system, rows, pull, solution=None, tolerance=0.0, least=None):
     """Solve for the pressure, and give the walls theirs; returns the solver's report.
 
     Parameters
@@ -17,22 +17,22 @@ def solve(flow, system, rows, pull, solution=None, tolerance=0.0, clipped=None):
         Where to start, and what was found, in place.
     tolerance : float
         Of the residual, if it is to be larger than that of the scheme.
-    clipped : (n,) bool, optional
-        Particles that the scheme may clip the pressure of, if not all.
+    least : (n,) float64 [Pa], optional
+        What a scheme that clips pressures clips them to, if not to 0.
     """
     particles, scheme = flow.particles, flow.case.scheme
-    some = clipped is not None and scheme.clip_pressure
-    clip = scheme.clip_pressure and not some
+    lower = least is not None and scheme.clip_pressure
+    clip = scheme.clip_pressure and not lower
     report = equation.solve(
         system, rows, particles, flow.solver, max(tolerance, scheme.tolerance),
         scheme.max_iterations, clip, solution,
     )  # fmt: skip
-    if some:
-        np.maximum(particles.pressure, 0.0, out=particles.pressure, where=clipped)
+    if lower:
+        np.maximum(particles.pressure, least, out=particles.pressure)
     if flow.extrapolates:
         wall_pressure.fill(flow.near, flow.case.fluid.density, pull, clip)
-        if some:
-            np.maximum(particles.pressure, 0.0, out=particles.pressure, where=clipped)
+        if lower:
+            np.maximum(particles.pressure, least, out=particles.pressure)
         flow.domain.refresh(particles.pressure)
     return report
 

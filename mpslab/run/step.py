@@ -49,7 +49,7 @@ def advance(flow, dt):
         system, rows = _assemble(flow, graded, pull, dt)
     with watch.phase("solve"):
         if flow.coupling:
-            report = flow.coupling.solve(flow, system, rows, pull, before, dt)
+            report = flow.coupling.solve(flow, system, rows, pull, dt)
         else:
             report = pressing.solve(flow, system, rows, pull)
     with watch.phase("operators"):
