@@ -135,6 +135,24 @@ def test_cylinder_let_go_under_water_starts_as_its_added_mass_says(density, sign
     assert sign * body.velocity[2] > 0.0
 
 
+@pytest.mark.parametrize("density", [10.0, 100.0])
+def test_light_body_that_hits_the_water_stops_and_hardly_bounces(density):
+    """Its added mass is many times its mass, and comes within some steps. With the added mass of
+    before it would be thrown up at 1.6 and 5 m/s.
+    """
+    flat = [[0.03, 0.036], [0.05, 0.036], [0.05, 0.048], [0.03, 0.048]]
+    run = Simulation(tank_with(box(flat, density=density, velocity=[0.0, 0.0, -1.0])))
+    (body,) = fleet(run).bodies
+    speeds = []
+    while run.time < 0.02:
+        run.advance()
+        speeds.append(body.velocity[2])
+    assert min(speeds) == pytest.approx(-1.04, abs=0.02) and max(speeds) < 0.4
+    assert abs(speeds[-1]) < 0.3
+    left = body.momentum - body.times_mass(body.velocity)
+    assert abs(left[2]) < 0.02 * body.added[2, 2]
+
+
 def test_held_body_stays_until_it_is_let_go():
     run = Simulation(tank_with(ball(0.04, 0.015, release=0.01)))
     run.run(until=0.01)

@@ -8,7 +8,9 @@ first, has the pressure for these. What its forces still differ from mass times 
 good in the next step (`mpslab.solids.floating`).
 
 The added mass is that of the discrete equations: the forces by the pressure that answers a unit
-acceleration. It is found anew every few steps; until then the water has hardly changed.
+acceleration. It is found anew every few steps; until then the water has hardly changed. Where a
+body hits the water it has: there the answer moves the body by more than a little, and so the added
+mass is found at once, and the bodies answer again until little is left to change.
 """
 
 from dataclasses import replace
@@ -22,6 +24,8 @@ from mpslab.run import pressing
 from mpslab.solids.fleet import Fleet
 
 EVERY = 20  # steps: the added mass is found anew
+CLOSE = 1e-3  # spacings: more than that an answer must not change a move, or it is not the last one
+MOST = 6  # answers of the bodies in a step
 SUCTION = 2.0  # spacings of water, whose weight may pull at a body
 ROUGH = 1e-3  # residual of its pressures, and of the first solve of a step
 
@@ -63,15 +67,23 @@ class Coupling(Exchange):
         least = self._least(flow)
         if not len(fleet.free):
             return pressing.solve(flow, system, rows, pull, solution, least=least)
-        first = pressing.solve(flow, system, rows, pull, solution, ROUGH, least)
-        self._find_added(flow, system, rows)
-        fleet.respond(self._given(flow, dt))
-        changed = self._push(flow, pull, dt)
-        system.right += self._flux(flow, changed - pull)[rows]
-        second = pressing.solve(flow, system, rows, changed, solution, least=least)
+        reports = [pressing.solve(flow, system, rows, pull, solution, ROUGH, least)]
+        if not all(0 <= one.age < EVERY for one in fleet.loose):
+            self._find_added(flow, system, rows)
+        for turn in range(MOST):
+            moved = fleet.respond(self._given(flow, dt))
+            changed = self._push(flow, pull, dt)
+            system.right += self._flux(flow, changed - pull)[rows]
+            pull = changed
+            reports.append(pressing.solve(flow, system, rows, pull, solution, least=least))
+            if moved <= CLOSE * flow.stencil.spacing:
+                break
+            if turn == 0 and any(one.age > 0 for one in fleet.loose):
+                self._find_added(flow, system, rows)
         return SolverReport(
-            first.iterations + second.iterations, second.residual,
-            first.converged and second.converged, first.replaced, max(first.coarse, second.coarse),
+            sum(one.iterations for one in reports), reports[-1].residual,
+            all(one.converged for one in reports), max(one.replaced for one in reports),
+            max(one.coarse for one in reports),
         )  # fmt: skip
 
     def _least(self, flow):
@@ -103,11 +115,9 @@ class Coupling(Exchange):
         return wall_pressure.flux(flow.near, flow.laplacian_stencil, flow.pair_terms, pull)
 
     def _find_added(self, flow, system, rows):
-        """Find the added mass of all bodies, if it is time."""
+        """Find the added mass of all bodies."""
         bodies = self.fleet.bodies
-        size, loose = 6 * len(bodies), [one for one in bodies if not one.held(flow.time)]
-        if all(0 <= one.age < EVERY for one in loose):
-            return
+        size = 6 * len(bodies)
         found, right = np.zeros((size, size)), system.right
         for k in self.fleet.free:
             pull = self._unit_pull(flow, k)
@@ -117,7 +127,7 @@ class Coupling(Exchange):
         system.right = right
         for k, one in enumerate(bodies):
             one.added = found[6 * k : 6 * k + 6]
-        for one in loose:
+        for one in self.fleet.loose:
             one.age = 0
 
     def _unit_pull(self, flow, k):

@@ -28,10 +28,12 @@ class Fleet:
     def begin(self, time, dt):
         """Find what acts on the bodies from outside of the water in a step."""
         self.time, self.dt = time, dt
+        self.loose = [body for body in self.bodies if not body.held(time)]
         self.free = np.flatnonzero(
             np.concatenate([body.free & (not body.held(time)) for body in self.bodies])
         )
         self.outer = np.array([dt * self._weight(body, time + 0.5 * dt) for body in self.bodies])
+        self.struck = np.zeros_like(self.outer)
         for line in self.lines:
             self.outer[self.bodies.index(line.body)] += dt * line.force()
 
@@ -48,11 +50,17 @@ class Fleet:
         ----------
         given : (bodies, 6) float64 [N s, N m s]
             Impulses of the water on the bodies, at the velocities that they aim at so far.
+
+        Returns
+        -------
+        float [m]
+            Farthest that any point of a body comes to another place by it, in the step.
         """
         aimed = np.array([body.aimed for body in self.bodies])
         lack = [body.momentum + given[k] + self.outer[k] - body.times_mass(body.aimed)
                 for k, body in enumerate(self.bodies)]  # fmt: skip
-        free, velocity = self.free, aimed.ravel()
+        free, velocity = self.free, aimed.flatten()
+        self.struck = np.zeros_like(self.outer)
         resistance = self.resistance()[np.ix_(free, free)]
         velocity[free] += eliminate(resistance, np.ravel(lack)[free])
         rows, least = self.contact.limits(self.time, self.dt, velocity.reshape(-1, 6))
@@ -63,10 +71,14 @@ class Fleet:
             )
             struck = impulses(rows, least, velocity, mobility)
             velocity = velocity + dot(mobility, struck)
-            self.outer += struck.reshape(-1, 6)
-        for body, one in zip(self.bodies, velocity.reshape(-1, 6), strict=True):
-            if not body.held(self.time):
+            self.struck = struck.reshape(-1, 6)
+        velocity = velocity.reshape(-1, 6)
+        for body, one in zip(self.bodies, velocity, strict=True):
+            if body in self.loose:
                 body.aim(one, self.dt)
+        size = np.sqrt(np.sum((velocity - aimed).reshape(-1, 2, 3) ** 2, axis=2))
+        reach = np.array([body.reach for body in self.bodies])
+        return self.dt * float((size[:, 0] + reach * size[:, 1]).max())
 
     def resistance(self):
         """Mass and added mass of all bodies, (6 bodies, 6 bodies)."""
@@ -77,6 +89,6 @@ class Fleet:
 
     def arrive(self, given):
         """End a step in which the water gave the bodies impulses (bodies, 6)."""
-        for body, got, more in zip(self.bodies, given, self.outer, strict=True):
-            held = body.held(self.time)  # and gives back what it gets
-            body.arrive(self.dt, body.momentum + (0.0 if held else got + more))
+        for body, got in zip(self.bodies, given + self.outer + self.struck, strict=True):
+            held = body not in self.loose  # and gives back what it gets
+            body.arrive(self.dt, body.momentum + (0.0 if held else got))
