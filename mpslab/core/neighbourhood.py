@@ -132,7 +132,8 @@ class Neighbourhood:
         found.offset, found.inverse = self.offset.take(pairs, 0), self.inverse.take(pairs)
         for name in ("loaded", "position", "first", "second"):
             setattr(found, name, getattr(self, name).take(members, 0))
-        found._correction = self.correction.take(members, 0)
+        if self._correction is not None:
+            found._correction = self._correction.take(members, 0)
         found._lean = found._close = None
         return found
 

@@ -7,6 +7,7 @@ from validation.floating import radiation
 
 LAST = 1.0  # seconds of a run on still water that means are taken over
 IMAGES = 12  # of a body in bed, walls and surface, that its added mass is summed over
+CREST = 0.02  # seconds about the crest of the heave that it is fitted over
 START = 2e-3  # seconds after a body is let go, from which on its speed is looked at
 
 
@@ -113,7 +114,7 @@ def _compare_heave(result, runs):
         time, height = bodies["time"], (bodies["cylinder z"] - run.depth) / lift
         theory = radiation.heave(given.radius, run.depth, run.gravity, given.density, run.density,
                                  time)  # fmt: skip
-        period = _period(time, height) / _period(time, theory)
+        period = _crest(time, height) / _crest(time, theory)
         rows.append([name, period, height.min(), theory.min()])
         figure.line(run.label, time, height)
         result.measure("period", period)
@@ -122,10 +123,15 @@ def _compare_heave(result, runs):
     result.table("Heave of a half-immersed cylinder", columns, rows)
 
 
-def _period(time, height):
-    """Twice the time between the first two zero crossings [s]; NaN without two."""
-    k = np.flatnonzero(np.diff(np.sign(height)) != 0)[:2]
-    if len(k) < 2:
+def _crest(time, height):
+    """When the cylinder is highest after its first trough [s], by a parabola; NaN if it is not.
+
+    Unlike times of zero crossings it does not depend on the level, which the cylinder changes.
+    """
+    later = np.flatnonzero(time > time[np.argmin(height)])
+    if not len(later):
         return np.nan
-    at = time[k] - height[k] * (time[k + 1] - time[k]) / (height[k + 1] - height[k])
-    return 2.0 * (at[1] - at[0])
+    top = later[np.argmax(height[later])]
+    part = np.abs(time - time[top]) < CREST
+    a, b, _ = np.polyfit(time[part] - time[top], height[part], 2)
+    return time[top] - 0.5 * b / a
