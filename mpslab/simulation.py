@@ -338,7 +338,8 @@ class Simulation:
 
     def _take_out_lost(self):
         particles = self._flow.particles
-        lost = find_lost(self.case, particles, self._flow.solids.face(self.time))
+        solids = self._flow.solids
+        lost = find_lost(self.case, particles, solids.face(self.time), solids.free)
         self._flow.done["leaving"] = lost
         gone = self._record.read("lost").get("lost", [])
         self._flow.done["gone"] = gone

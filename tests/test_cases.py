@@ -20,6 +20,7 @@ from mpslab.theory import waves
 NAMES = (
     "caisson",
     "dam_break",
+    "floating_box",
     "focused_wave",
     "hydrostatic",
     "irregular_waves",

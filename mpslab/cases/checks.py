@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from mpslab import instruments
-from mpslab.cases import contents
+from mpslab.cases import bodies, contents
 from mpslab.cases.contents import ROUNDING
 from mpslab.core import plugins
 from mpslab.core.keys import CaseError, require, require_choice, toml_name
@@ -22,8 +22,8 @@ MOST_PARTICLES = 1e9
 
 # How many tables, or points, there may be under a key.
 MOST = {
-    "water": 100, "obstacle": 100, "gate": 100, "solid": 100, "sponge": 100, "gauge": 1000,
-    "probe": 1000, "runup": 100, "overtopping": 100,
+    "water": 100, "obstacle": 100, "gate": 100, "solid": 100, "mooring": 100, "sponge": 100,
+    "gauge": 1000, "probe": 1000, "runup": 100, "overtopping": 100,
 }  # fmt: skip
 MOST_POINTS, MOST_PICTURES = 2000, 1000
 
@@ -55,6 +55,7 @@ def check(case: Case) -> None:
     _check_frame(case)
     _check_gravity(case)
     _check_time(case)
+    bodies.check_bodies(case)
     _check_absorption(case)
     sponge.check(case)
     for name in ("gauge", "probe"):

@@ -26,6 +26,7 @@ def complete(case: Case) -> Case:
         obstacle=_named("obstacle", _boxes(case.obstacle, tank)),
         gate=_named("gate", case.gate),
         solid=_named("solid", case.solid),
+        mooring=_named("mooring", case.mooring),
         particles=replace(case.particles, layers=case.particles.layers or least_layers(case)),
         time=_time(case),
         output=_output(case),

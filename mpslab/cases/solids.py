@@ -70,7 +70,7 @@ def _cross(a, b, c, d):
 
 
 def _check_motion(where, given):
-    if given.motion == "none":
+    if given.motion in ("none", "free"):
         return
     rule = f"> 0 for motion = {given.motion!r}"
     require(given.amplitude > 0.0, f"{where}.amplitude", given.amplitude, rule)

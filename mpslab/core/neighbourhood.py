@@ -23,6 +23,8 @@ class Neighbourhood:
 
     Attributes
     ----------
+    members : (k,) int or None
+        Which of all particles these are, where they are not all.
     particles : ParticleSet
         They may move on; the pairs stay as they were measured.
     stencil : Stencil
@@ -50,7 +52,7 @@ class Neighbourhood:
 
     def __init__(self, stencil):
         self.stencil = stencil
-        self.particles = no_particles()
+        self.particles, self.members = no_particles(), None
         self.offset, self.inverse = np.empty((0, 4), np.float32), np.empty(0, np.float32)
         self._behind = np.empty(0, np.int32)
 
@@ -112,22 +114,36 @@ class Neighbourhood:
         found.particles = particles
         return found
 
-    def only(self, row, pairs):
-        """Some of the pairs of water with solids; what is known of each particle stays.
+    def only(self, members, row, pairs):
+        """Some of the pairs of water with solids, among some particles; what is known of each
+        particle stays.
 
         Parameters
         ----------
-        row : (n + 1,) int32
+        members : (k,) int
+            Rows of the particles, in ascending order.
+        row : (k + 1,) int32
             Row i of the new arrays of pairs is ``row[i]:row[i + 1]``.
         pairs : (m,) int
             Number of each in the present arrays.
         """
         found, behind = copy(self), np.zeros(LANES, np.int32)
-        found.row, found.solid, found.other = row, row[:-1].copy(), self.other.take(pairs)
+        found.members, found.particles = members, self.particles.take(members)
+        found.row, found.solid = row, row[:-1].copy()
+        found.other = np.searchsorted(members, self.other.take(pairs)).astype(np.int32)
         pairs = np.append(pairs, behind)
         found.offset, found.inverse = self.offset.take(pairs, 0), self.inverse.take(pairs)
+        for name in ("loaded", "position", "first", "second"):
+            setattr(found, name, getattr(self, name).take(members, 0))
+        if self._correction is not None:
+            found._correction = self._correction.take(members, 0)
         found._lean = found._close = None
         return found
+
+    def pick(self, values):
+        """The values of these particles out of those of all, (n, ...) or None."""
+        whole = self.members is None or values is None
+        return values if whole else values.take(self.members, 0)
 
     @property
     def number_density(self):

@@ -101,10 +101,15 @@ def _reached(system, tied):
             return reached.astype(bool)
 
 
-def solve(system, rows, particles, solver, tolerance, max_iterations, clip):
-    """Solve from the last pressure, in place; zero at the surface and, with `clip`, where < 0."""
-    pressure = particles.pressure[rows]
-    report = solver.solve(system, pressure, tolerance, max_iterations)
+def solve(system, rows, particles, solver, tolerance, max_iterations, clip, solution=None):
+    """Solve for the pressure of particles, in place; zero at the surface and, with `clip`, where
+    < 0.
+
+    solution : (m,) float64 [Pa], optional
+        Where to start, and what was found, in place; the last pressure unless given.
+    """
+    solution = particles.pressure[rows] if solution is None else solution
+    report = solver.solve(system, solution, tolerance, max_iterations)
     particles.pressure[:] = 0.0
-    particles.pressure[rows] = np.maximum(pressure, 0.0) if clip else pressure
+    particles.pressure[rows] = np.maximum(solution, 0.0) if clip else solution
     return report

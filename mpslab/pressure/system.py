@@ -23,6 +23,8 @@ class PressureSystem:
         Which rows are solved here; all of them unless given.
     cell : (m, 2) int, optional
         Cell across the tank, in y and z, that the particle of each row is in.
+    prepared : object
+        What a solver keeps of the matrix, for another right-hand side.
     """
 
     row: np.ndarray
@@ -32,6 +34,7 @@ class PressureSystem:
     right: np.ndarray
     blocks: Blocks = None
     cell: np.ndarray = None
+    prepared: object = None
 
     def __post_init__(self):
         if self.blocks is None:

@@ -15,6 +15,7 @@ from mpslab.core.stencil import Stencil, make_stencil
 from mpslab.forcings import forcings_of
 from mpslab.parallel.domain import Domain
 from mpslab.parallel.slabs import make_slabs
+from mpslab.run.coupling import coupling_of
 from mpslab.solids import layout
 from mpslab.solids.collection import Solids
 
@@ -45,6 +46,8 @@ class Flow:
         What the gauges read last, by name [m], for a paddle that goes by it.
     reaction : mpslab.models.reaction.Reaction or None
         Adds up what solids give the water, where the case asks for forces.
+    coupling : mpslab.run.coupling.Coupling or None
+        Finds how the water moves free bodies, where there are some.
     compression : float [1/s]
         Largest rate at which the water of this rank ran together in the last step, before the
         pressure acted.
@@ -69,12 +72,18 @@ class Flow:
     done: dict = field(default_factory=dict)
     readings: dict = field(default_factory=dict)
     reaction: object = None
+    coupling: object = None
     compression: float = 0.0
 
     @property
     def stopwatch(self):
         """That of the domain, which counts communication and waiting."""
         return self.domain.stopwatch
+
+    @property
+    def exchanges(self):
+        """Who is to be told what solids have a part in, in a step."""
+        return [one for one in (self.reaction, self.coupling) if one]
 
     @property
     def extrapolates(self):
@@ -141,7 +150,7 @@ def make_flow(case, particles, solids, width, forcings=(), comm=None):
     domain = Domain(slabs, comm, cells_of(case, slabs, width))
     solver = solver_of(case, domain.size)
     solids.begin(particles, domain.comm)
-    near = Neighbourhood(stencil)
+    near, forcings = Neighbourhood(stencil), forcings_of(case, forcings)
     return Flow(
         case=case,
         particles=domain.take_part(particles, case.parallel.balance),
@@ -154,7 +163,8 @@ def make_flow(case, particles, solids, width, forcings=(), comm=None):
         solver=solver,
         pair_terms=plugins.load("laplacians", scheme.laplacian).pair_terms(laplacian_stencil),
         stabilisers=tuple(plugins.load("stabilisers", name) for name in scheme.stabiliser),
-        forcings=forcings_of(case, forcings),
+        forcings=forcings,
+        coupling=coupling_of(case, solids, forcings),
         near=near,
         near_gradient=near if gradient_stencil == stencil else Neighbourhood(gradient_stencil),
     )

@@ -25,7 +25,7 @@ class Lost:
     reason: str
 
 
-def find_lost(case, particles, face):
+def find_lost(case, particles, face, free=()):
     """Fluid particles behind a wall by more than a spacing, or beyond a plane that drains.
 
     Returns a list of `Lost`; the reason of what drains begins with `DRAINED`.
@@ -36,6 +36,7 @@ def find_lost(case, particles, face):
     particles : ParticleSet
     face : float [m]
         x of the wavemaker's face.
+    free : sequence of mpslab.solids.floating.Floating
     """
     suspects = _may_be_lost(case, particles, face)
     spacing, position = case.particles.spacing, particles.position.take(suspects, 0)
@@ -60,6 +61,7 @@ def find_lost(case, particles, face):
         sides.append(("into an obstacle", obstacles.deep_inside(case, position) >= 0))
     if case.solid:
         sides.append(("into a solid", shaped.deep_inside(case, position)))
+    sides += [(f"into {body.name}", body.deep_inside(position)) for body in free]
     found, seen = [], np.zeros(len(suspects), bool)
     for reason, outside in sides:
         rows = suspects[outside & ~seen]

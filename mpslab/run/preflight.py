@@ -15,6 +15,7 @@ from mpslab.core.lattice import effective_length, rows_across
 from mpslab.forcings import sponge
 from mpslab.parallel import balance
 from mpslab.run.flow import slabs_of, solver_of
+from mpslab.run.preflight_bodies import bodies
 from mpslab.run.preflight_frame import tank_motion
 from mpslab.run.preflight_text import sections
 from mpslab.solids import filling, gates, obstacles, shaped
@@ -68,6 +69,7 @@ class Preflight:
           "roll [deg]", "period [s]" of a sine, "largest_acceleration [m/s2]" of a place where its
           water stands; where nothing else stands in it, "natural_period [s]" of the water and, by
           linear theory, its "rise [m]" at the walls, with the "room [m]" above it;
+        - "bodies", free ones by name, as `mpslab.run.preflight_bodies` finds them;
         - of an absorbing piston among the wavemaker's: "absorption" (tuned to a wave, or fitted to
           a sea), "absorption_period [s]", "reflection_at_peak", "reflection_over_spectrum", "room
           [m]";
@@ -124,6 +126,7 @@ def preflight(case):
         found["wavemaker"] = _wavemaker(case, paddle)
     if case.frame.type != "none":
         found["tank_motion"] = tank_motion(case, notes)
+    found |= bodies(case, notes)
     if case.sponge:
         found["sponges"] = [_sponge(case, one) for one in case.sponge]
         notes += _reflects_much(found["sponges"])

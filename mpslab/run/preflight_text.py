@@ -28,6 +28,8 @@ def sections(found):
         told["Wavemaker"] = [*_wavemaker(maker)]
     if "tank_motion" in found:
         told["Motion of the tank"] = [*_tank_motion(found["tank_motion"])]
+    for name, body in found.get("bodies", {}).items():
+        told[f"Free body {name}"] = [*_body(body, found["spacing [m]"])]
     if "sponges" in found:
         told["Sponges"] = [*_sponges(found["sponges"])]
     if "wave" in found:
@@ -55,6 +57,21 @@ def _solid(solid, spacing):
     thin = solid["thinnest [m]"]
     across = f", {thin / spacing:.3g} spacings at the thinnest" if thin else ""
     return f"{solid['shape']}, {', '.join(sides)}{across}"
+
+
+def _body(body, spacing):
+    """How heavy a free body is, how it floats, and what is near it."""
+    yield "mass", f"{body['mass [kg]']:.4g} kg, {body['density [kg/m3]']:.4g} kg/m3"
+    inertia = ", ".join(f"{number:.4g}" for number in body["inertia [kg m2]"])
+    yield "moment of inertia", f"{inertia} kg m2"
+    if "draft [m]" in body:
+        yield "draft afloat", _mm(body["draft [m]"])
+        yield "centre of mass afloat", f"z = {body['floats_at [m]']:.4g} m"
+        yield "metacentric height", _mm(body["metacentric_height [m]"])
+    else:
+        yield "draft afloat", "none: it sinks"
+    gap = body["smallest_gap [m]"]
+    yield "smallest gap", f"{_mm(gap)}, {gap / spacing:.3g} spacings, to the {body['nearest']}"
 
 
 def _side(axis, low, high):

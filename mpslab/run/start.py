@@ -24,6 +24,8 @@ def lay_out(case, own):
     flow = _flow(case, own, paddle, lambda: layout.build_particles(case, backmost, own.solids))
     settling.settle(flow)
     initial.set_velocity(case, flow.particles, flow.domain.total)
+    for body in flow.solids.free:
+        body.set_off(flow.particles)
     return flow
 
 

@@ -1,15 +1,15 @@
 """One time step of the semi-implicit particle method."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 
 from mpslab.core.particles import add_where, put_where
 from mpslab.core.timestep import pace
 from mpslab.forcings import total
-from mpslab.models import copied, friction, surface, wall_pressure
+from mpslab.models import friction, surface, wall_pressure
 from mpslab.pressure import equation
+from mpslab.run import pressing
 
 LAYERS = 20  # of water, up to which the weight of a density error does not depend on them
 WAKING = 2.0  # sqrt(depth / gravity): in this time the density begins to count
@@ -28,16 +28,16 @@ def advance(flow, dt):
     _predict(flow, dt)
     with watch.phase("ghosts"):
         flow.particles, (start, before) = domain.share_out(flow.particles, start, before)
-    particles, reaction = flow.particles, flow.reaction
-    if reaction:
-        reaction.begin(particles, before)
+    particles = flow.particles
+    for one in flow.exchanges:
+        one.begin(particles, before)
     with watch.phase("neighbours"):
         find_neighbors(flow)
     with watch.phase("operators"):
         moves = any(model.STAGE == "predicted" for model in flow.stabilisers)
         measure(flow, with_gradient=not moves)
-        if reaction:
-            reaction.find(flow.near)
+        for one in flow.exchanges:
+            one.find(flow.near)
         _add_viscosity(flow, dt)
         if moves:
             _stabilise(flow, "predicted", dt)
@@ -48,11 +48,14 @@ def advance(flow, dt):
     with watch.phase("assembly"):
         system, rows = _assemble(flow, graded, pull, dt)
     with watch.phase("solve"):
-        report = _solve(flow, system, rows, pull)
+        if flow.coupling:
+            report = flow.coupling.solve(flow, system, rows, pull, dt)
+        else:
+            report = pressing.solve(flow, system, rows, pull)
     with watch.phase("operators"):
         _correct(flow, start, dt)
-        if reaction:
-            reaction.end(flow, dt)
+        for one in flow.exchanges:
+            one.end(flow, dt)
     flow.particles = domain.without_ghosts(particles)
     flow.time += dt
     return report
@@ -114,9 +117,8 @@ def _add_viscosity(flow, dt):
     eddy = friction.eddies(flow.near, seen, scheme, flow.domain.refresh)
 
     def change(near):
-        return dt * friction.acceleration(
-            near, flow.laplacian_stencil, seen, eddy, fluid, scheme
-        )
+        mine = near.pick(seen), near.pick(eddy)
+        return dt * friction.acceleration(near, flow.laplacian_stencil, *mine, fluid, scheme)
 
     if scheme.wall_slip:
         flow.particles.velocity += change(flow.near)  # no solid has a part in it
@@ -174,18 +176,6 @@ def density_rate(case, time):
     return rate * s * s * (3.0 - 2.0 * s)
 
 
-def _solve(flow, system, rows, pull):
-    particles, scheme = flow.particles, flow.case.scheme
-    report = equation.solve(
-        system, rows, particles, flow.solver, scheme.tolerance, scheme.max_iterations,
-        scheme.clip_pressure,
-    )  # fmt: skip
-    if flow.extrapolates:
-        wall_pressure.fill(flow.near, flow.case.fluid.density, pull, scheme.clip_pressure)
-        flow.domain.refresh(particles.pressure)
-    return report
-
-
 def _correct(flow, start, dt):
     """u = u* - (dt/rho) grad p and r = start + u dt, then keep the particles in order."""
     particles = flow.particles
@@ -200,28 +190,13 @@ def _correct(flow, start, dt):
 
 def _press(flow, dt):
     """u = u* - (dt/rho) grad p."""
-    near = flow.near_gradient
-    if flow.copies:
-        near.loaded = copied.fill(near)
-        # The face that is nearest to a ghost may be on another rank alone.
-        flow.domain.refresh(near.particles.pressure, near.loaded)
-    gradient = flow.gradient.gradient
-    if flow.reaction and hasattr(flow.gradient, "as_pairs"):
-        gradient, pressure = flow.gradient.as_pairs(near)
-        near = near.of(replace(near.particles, pressure=pressure))
-
-    def change(near):
-        out = np.empty_like(near.particles.velocity)
-        gradient(near, out)
-        return (-dt / flow.case.fluid.density) * out
-
-    _act(flow, near, change)
+    _act(flow, *pressing.push(flow, dt))
 
 
 def _act(flow, near, change):
     """Change the velocity of the water by a sum over pairs, and note the solids' part in it."""
-    if flow.reaction:
-        flow.reaction.add(near, change)
+    for one in flow.exchanges:
+        one.add(near, change)
     flow.particles.velocity += change(near)
 
 
@@ -253,12 +228,12 @@ def _stabilise(flow, stage, dt):
 def _part(flow, model, dt):
     """Apply a stabiliser, pass by pass."""
     one_pass = getattr(model, "one_pass", model.stabilise)
-    felt = flow.reaction and not getattr(model, "KEEPS_VELOCITY", False)
+    felt = [] if getattr(model, "KEEPS_VELOCITY", False) else flow.exchanges
 
     def act(near):
         one_pass(near, dt, pace(flow.case), flow.case.scheme)
 
     for _ in range(getattr(model, "PASSES", 1)):
-        if felt:
-            flow.reaction.stabilise(flow.near, act)
+        for one in felt:
+            one.stabilise(flow.near, act)
         act(flow.near)

@@ -9,7 +9,8 @@ A solid is an object with
         `obstacles.least_thickness` says.
     motion : function (t [s]) -> (x, z, angle) [m, m, rad], or None
         How far it has gone from where it was laid out (`mpslab.core.motion`); None for a solid
-        that stands still.
+        that stands still. Of a body that the water moves (`mpslab.solids.floating`), how far it has
+        gone by now.
     holds(points) -> (n,) bool
         Which places (n, 3) [m] are inside it, as it was laid out: no water is laid there.
     state() -> dict, restore(dict)

@@ -4,13 +4,14 @@ import numpy as np
 
 from mpslab.core.keys import NAME, check_value
 from mpslab.core.particles import FIRST_SOLID, PISTON, TANK
-from mpslab.solids import gates, obstacles, shaped
+from mpslab.solids import floating, gates, obstacles
 from mpslab.solids.piston import Piston
 from mpslab.solids.tank import Tank
 
 # The name of a user's solid: without a dot, which stands between it and the key of its state.
 OWN_NAME = {**NAME, "forbidden": NAME["forbidden"] + ".", "unit": ""}
-KINDS = (obstacles, gates, shaped)  # that a case may have several of, in the order of their bodies
+# What a case may have several of, in the order of their bodies.
+KINDS = (obstacles, gates, floating)
 
 
 def solids_of(case, paddle=None, own=(), backmost=0.0):
@@ -56,6 +57,11 @@ class Solids:
         self.bodies = bodies
         self.moving = {body: solid for body, solid in bodies.items() if solid.motion is not None}
         self.felt = [body for body, solid in self.moving.items() if not solid.jumps]
+
+    @property
+    def free(self):
+        """The bodies that the water moves, in their order."""
+        return [one for one in self.bodies.values() if isinstance(one, floating.Floating)]
 
     @property
     def piston(self):

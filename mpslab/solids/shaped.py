@@ -89,14 +89,9 @@ class Shaped(Solid):
         return self.shape.distance(points) < 0.0
 
 
-def make(case, tank):
-    """The solids of a case, in their order."""
-    return [Shaped(case, number, tank) for number in range(len(case.solid))]
-
-
 def motion_of(given):
-    """The prescribed motion of a table ``[[solid]]``, None for one at rest."""
-    if given.motion == "none":
+    """The prescribed motion of a table ``[[solid]]``, None for one that has none."""
+    if given.motion in ("none", "free"):
         return None
     return oscillation(given.motion, given.amplitude, given.period, given.start, given.about)
 

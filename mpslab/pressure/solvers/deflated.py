@@ -12,7 +12,7 @@ def solve(system, x, tolerance, max_iterations):
 
     Nicolaides (1987); in the form DEF1 of Tang, Nabben, Vuik & Erlangga (2009).
     """
+    system.prepared = system.prepared or Deflation(system, tolerance)
     return conjugate_gradient(
-        system, x, by_diagonal(system), tolerance, max_iterations,
-        deflation=Deflation(system, tolerance),
-    )  # fmt: skip
+        system, x, by_diagonal(system), tolerance, max_iterations, deflation=system.prepared
+    )
