@@ -121,7 +121,9 @@ class Solid:
     """A solid of any shape, with smooth faces at any angle; at rest, or on a given path."""
 
     name: str | None = key("its name; solid-1 and so on if left out", None, **NAME)
-    shape: str = key("its shape", choices=("polygon", "cylinder", "sphere"), kind="text")
+    shape: str = key(
+        "its shape", choices=("polygon", "cylinder", "sphere", "box", "mesh"), kind="text"
+    )
     points: tuple = key(
         "corners of a polygon, closed and without crossings: [x, z], with axis 'z' [x, y]",
         (),
@@ -129,12 +131,32 @@ class Solid:
         unit="m",
     )
     center: tuple | None = key(
-        "centre [x, y, z] of a cylinder or sphere; along the axis of a cylinder it does not count",
+        "centre [x, y, z] of a cylinder (along its axis it does not count), sphere or box; of a "
+        "mesh where the origin of its file is to be, [0, 0, 0] if left out",
         None,
         kind="point",
         unit="m",
     )
     radius: float = key("radius of a cylinder or sphere", 0.0, unit="m", low=0)
+    size: tuple | None = key(
+        "lengths [x, y, z] of the sides of a box before it is turned", None, kind="point", unit="m"
+    )
+    file: str = key(
+        "triangles of a mesh: an STL, OBJ or PLY file, relative to the case file",
+        "",
+        copy="solid-{number}{suffix}",
+    )
+    unit: str = key("unit of the lengths in this file", "m", choices=("m", "cm", "mm"))
+    scale: float = key("factor on these lengths", 1.0, above=0, high=1e9)
+    rotation: tuple = key(
+        "angles by which a box or mesh is turned about x, then y, then z (axes of the tank through "
+        "its center), each right-handed: about y it turns z towards x",
+        (0.0, 0.0, 0.0),
+        kind="point",
+        unit="deg",
+        low=-360,
+        high=360,
+    )
     axis: str = key(
         "axis along which polygon and cylinder are drawn out: across the tank, or upright",
         "y",
@@ -147,9 +169,17 @@ class Solid:
         unit="m",
     )
     motion: str = key(
-        "a sine along x (sway), z (heave) or about an axis across (roll); none for a solid at rest",
+        "a sine along x (sway), z (heave) or about an axis across (roll), or any motion from a "
+        "file; none for a solid at rest",
         "none",
-        choices=("none", "sway", "heave", "roll"),
+        choices=("none", "sway", "heave", "roll", "file"),
+    )
+    motion_file: str = key(
+        "motion from a CSV file with the heading time [s] and any of x [m], z [m] and roll [deg], "
+        "relative to the case file; a cubic spline joins its rows, and only what is different from "
+        "the start counts",
+        "",
+        copy="solid-{number}-motion.csv",
     )
     amplitude: float = key("amplitude of the sine", 0.0, unit="m, of roll deg", low=0, high=1e3)
     period: float = key("period of the sine", 0.0, unit="s", low=0)

@@ -20,6 +20,15 @@ PLANE = {"y": (0, 2), "z": (0, 1)}  # axes across the axis of a prism
 INDEX = {"y": 1, "z": 2}
 
 
+def turned(angles):
+    """Matrix (3, 3) that turns about x, then y, then z by angles [deg], each right-handed."""
+    (a, b, c), (s, t, u) = np.cos(np.radians(angles)), np.sin(np.radians(angles))
+    about_x = np.array([[1.0, 0.0, 0.0], [0.0, a, -s], [0.0, s, a]])
+    about_y = np.array([[b, 0.0, t], [0.0, 1.0, 0.0], [-t, 0.0, b]])
+    about_z = np.array([[c, -u, 0.0], [u, c, 0.0], [0.0, 0.0, 1.0]])
+    return about_z @ about_y @ about_x
+
+
 class Prism:
     """An outline, drawn out along an axis.
 
@@ -68,6 +77,40 @@ class Prism:
                 elif row == k:
                     normal = (normal + up) / np.sqrt(2.0)
                 found.append((position, normal, np.full(len(points), min(k, row))))
+        return _stacked(found)
+
+
+class Box:
+    """A box of a size (3,) [m] about a centre (3,) [m], turned by a matrix (3, 3)."""
+
+    def __init__(self, center, size, turn):
+        self.center, self.turn = np.asarray(center, float), turn
+        self.half = 0.5 * np.asarray(size, float)
+        reach = np.abs(turn) @ self.half
+        self.low, self.high = self.center - reach, self.center + reach
+        self.thinnest = float(min(size))
+
+    def distance(self, points):
+        beyond = np.abs((points - self.center) @ self.turn) - self.half
+        outside = np.linalg.norm(np.maximum(beyond, 0.0), axis=1)
+        return np.where(outside > 0.0, outside, beyond.max(axis=1))
+
+    def layers(self, spacing, count):
+        found = []
+        for k in range(count):
+            half = self.half - (k + 0.5) * spacing
+            if half.min() < -0.25 * spacing:
+                break
+            parts = np.maximum(np.round(2.0 * half / spacing), 1.0) * (half > 0.25 * spacing)
+            number = np.indices(parts.astype(int) + 1).reshape(3, -1).T
+            first, last = number == 0, number == parts
+            shell = np.any(first | last, axis=1)
+            out = (last.astype(float) - first)[shell]
+            share = 2.0 * number[shell] / np.maximum(parts, 1) - (parts > 0)
+            place = share * np.maximum(half, 0.0)
+            out /= np.maximum(np.linalg.norm(out, axis=1), 1.0)[:, None]
+            found.append((self.center + place @ self.turn.T, out @ self.turn.T,
+                          np.full(len(place), k)))  # fmt: skip
         return _stacked(found)
 
 
