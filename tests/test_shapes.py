@@ -214,7 +214,7 @@ def test_still_water_lifts_a_turned_box_by_the_weight_it_displaces(angle):
 
 SPHERE = {"shape": "sphere", "center": [0.03, 0.0, 0.015], "radius": 0.008}
 REFUSED = [
-    ([SPHERE], {}, "solid.0.shape = 'sphere': must be polygon or cylinder in a 2-D tank"),
+    ([SPHERE], {}, "solid.0.shape = 'sphere': must be polygon, cylinder or box in a 2-D tank"),
     ([cylinder(0.03, 0.015, 0.0)], {}, "solid.0.radius = 0.0: must be > 0 for a cylinder"),
     ([{"shape": "cylinder", "radius": 0.01}], {}, "solid.0.center = None: must be given"),
     ([cylinder(0.03, 0.015, 0.008, axis="z")], {}, "solid.0.axis = 'z': must be y in a 2-D"),

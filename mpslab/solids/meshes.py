@@ -12,7 +12,7 @@ import numpy as np
 from mpslab.later import scipy
 from mpslab.solids.edges import Edges, normals_of
 from mpslab.solids.shapes import turned
-from mpslab.solids.surfaces import igl, winding
+from mpslab.solids.surfaces import igl, volume, winding
 
 REACH = 4.5  # spacings up to which distances are exact, if layers do not need more
 PASSES, PUSH, ROUND = 32, 0.3, 2.1  # of the particles: how often, how far, from how near [spacings]
@@ -45,6 +45,7 @@ class Mesh:
         self.spacing, self.window = spacing, np.asarray(window, float)
         self.reach = max(REACH, layers + 1.0) * spacing
         self.low, self.high = self.vertices.min(axis=0), self.vertices.max(axis=0)
+        self.volume = volume(self.vertices, self.faces)
 
     @cached_property
     def _tree(self):

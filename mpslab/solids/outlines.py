@@ -8,6 +8,7 @@ An outline has
         Particles about a spacing apart on the line so far inside, and the directions out of it.
     low, high : (2,) float64 [m]
         The corners of what it covers.
+    area : float [m2]
     thinnest : float [m]
         Least distance across it; of sides that meet in a corner none.
 """
@@ -28,7 +29,7 @@ class Circle:
     def __init__(self, center, radius):
         self.center, self.radius = np.asarray(center, float), radius
         self.low, self.high = self.center - radius, self.center + radius
-        self.thinnest = 2.0 * radius
+        self.thinnest, self.area = 2.0 * radius, np.pi * radius**2
 
     def distance(self, points):
         return np.hypot(*(points - self.center).T) - self.radius
@@ -50,6 +51,7 @@ class Polygon:
         corners = np.asarray(corners, float)
         self.corners = corners if _area(corners) > 0.0 else corners[::-1]
         self.low, self.high = corners.min(axis=0), corners.max(axis=0)
+        self.area = abs(_area(corners))
 
     @cached_property
     def _sides(self):

@@ -188,6 +188,18 @@ def _made_rasters(solids, tank, particles):
                  for shape in _shapes(solids, tank, particles))  # fmt: skip
 
 
+@lru_cache(maxsize=8)
+def _faces(shape, spacing):
+    position, normal, layer = shape.layers(spacing, 1)
+    first = layer == 0
+    return position[first] + 0.5 * spacing * normal[first]
+
+
+def faces(case, number):
+    """Points of the face of a solid, about a spacing apart: (n, 3) [m], in the tank or not."""
+    return _faces(shapes(case)[number], case.particles.spacing)
+
+
 def give_way(case, water):
     """Water (n, 3) [m] outside of the solids: what is nearer than half a spacing is moved off."""
     step = 1e-3 * case.particles.spacing

@@ -11,6 +11,8 @@ A shape has
         The corners of what it covers; infinite along an axis on which it has no end.
     thinnest : float [m]
         As of an outline (`mpslab.solids.outlines`).
+    volume : float [m3]
+        Of all of it, in the tank or not; of a prism in 2-D the area [m2].
 """
 
 import numpy as np
@@ -53,6 +55,14 @@ class Prism:
     def thinnest(self):
         return min(self.outline.thinnest, self.ends[1] - self.ends[0])
 
+    @property
+    def volume(self):
+        low, high = self.ends
+        pitch = self.rows[1] - self.rows[0] if len(self.rows) > 1 else 1.0
+        low = low if np.isfinite(low) else self.rows[0] - 0.5 * pitch
+        high = high if np.isfinite(high) else self.rows[-1] + 0.5 * pitch
+        return self.outline.area * (high - low)
+
     def distance(self, points):
         across = self.outline.distance(points[:, self.plane])
         beyond = np.maximum(self.ends[0] - points[:, self.along],
@@ -88,7 +98,7 @@ class Box:
         self.half = 0.5 * np.asarray(size, float)
         reach = np.abs(turn) @ self.half
         self.low, self.high = self.center - reach, self.center + reach
-        self.thinnest = float(min(size))
+        self.thinnest, self.volume = float(min(size)), float(np.prod(size))
 
     def distance(self, points):
         beyond = np.abs((points - self.center) @ self.turn) - self.half
@@ -120,7 +130,7 @@ class Sphere:
     def __init__(self, center, radius):
         self.center, self.radius = np.asarray(center, float), radius
         self.low, self.high = self.center - radius, self.center + radius
-        self.thinnest = 2.0 * radius
+        self.thinnest, self.volume = 2.0 * radius, 4.0 / 3.0 * np.pi * radius**3
 
     def distance(self, points):
         return np.linalg.norm(points - self.center, axis=1) - self.radius

@@ -97,7 +97,7 @@ def closed(vertices, faces):
     faces, turned = _wound(faces)
     if turned:
         notes.append(f"{turned:,} triangles turned as their neighbours face")
-    if _volume(vertices, faces) < 0.0:
+    if volume(vertices, faces) < 0.0:
         faces = faces[:, ::-1].copy()
         notes.append("was inside out")
     doubtful = _doubtful(vertices, faces)
@@ -168,14 +168,10 @@ def _wound(faces):
     return faces, int(turn.sum())
 
 
-def _volume(vertices, faces):
+def volume(vertices, faces):
+    """Volume inside a closed surface; what several of its parts hold counts several times."""
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     return float(np.einsum("ij,ij->i", a - vertices[0], np.cross(b - a, c - a)).sum() / 6.0)
-
-
-def volume(vertices, faces):
-    """Volume of a surface without overlaps."""
-    return _volume(vertices, faces)
 
 
 def _doubtful(vertices, faces):
