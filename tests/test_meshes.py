@@ -151,7 +151,7 @@ def test_layers_are_even_and_without_gaps(mesh, turn):
     """In spacings; each particle stands for a cube of the layer that it is in."""
     shape = shape_of(mesh, turn)
     position, normal, layer = shape.layers(1.0, 2)
-    np.testing.assert_allclose(-shape.distance(position), layer + 0.5, atol=0.05)
+    np.testing.assert_allclose(-shape.distance(position), layer + 0.5, atol=0.06)
     np.testing.assert_allclose(np.linalg.norm(normal, axis=1), 1.0)
     assert np.all(shape.distance(position + normal)[layer == 0] > 0.0)
     assert cKDTree(position).query(position, k=2)[0][:, 1].min() > 0.6

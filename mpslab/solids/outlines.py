@@ -5,7 +5,8 @@ An outline has
     distance(points) -> (n,) float64 [m]
         Of places (n, 2) [m], negative inside.
     ring(depth, spacing) -> points (m, 2) [m], normals (m, 2)
-        Particles about a spacing apart on the line so far inside, and the directions out of it.
+        Particles about a spacing apart on the line so far inside, and the directions out of it. In
+        a circle they stand in the middle of the area that they stand for, a little farther out.
     low, high : (2,) float64 [m]
         The corners of what it covers.
     area : float [m2]
@@ -39,6 +40,9 @@ class Circle:
         if radius < 0.25 * spacing:
             count = int(radius > -0.25 * spacing)
             return self.center + np.zeros((count, 2)), np.zeros((count, 2))
+        # Where the middle of the area of a ring is that is a spacing wide.
+        outer, inner = radius + 0.5 * spacing, max(radius - 0.5 * spacing, 0.0)
+        radius = 2.0 / 3.0 * (outer**3 - inner**3) / (outer**2 - inner**2)
         angle = 2.0 * np.pi * _parts(2.0 * np.pi * radius / spacing)
         out = np.column_stack([np.cos(angle), np.sin(angle)])
         return self.center + radius * out, out

@@ -6,7 +6,8 @@ A shape has
         Of places (n, 3) [m], negative inside.
     layers(spacing, count) -> position (m, 3) [m], normal (m, 3), layer (m,) int
         Particles about a spacing apart, layer k lying (k + 1/2) spacings inside; and the direction
-        out of the shape.
+        out of the shape. In a sphere, as in a circle, a layer lies where the middle of its volume
+        is, a little farther out.
     low, high : (3,) float64 [m]
         The corners of what it covers; infinite along an axis on which it has no end.
     thinnest : float [m]
@@ -138,14 +139,16 @@ class Sphere:
     def layers(self, spacing, count):
         found = []
         for k in range(count):
-            radius = self.radius - (k + 0.5) * spacing
-            if radius < -0.25 * spacing:
+            outer = self.radius - k * spacing
+            if outer < 0.25 * spacing:
                 break
-            number = max(round(4.0 * np.pi * max(radius, 0.0) ** 2 / spacing**2), 1)
+            inner = max(outer - spacing, 0.0)
+            number = max(round(4.0 / 3.0 * np.pi * (outer**3 - inner**3) / spacing**3), 1)
+            radius = 0.75 * (outer**4 - inner**4) / (outer**3 - inner**3) if number > 1 else 0.0
             turn, up = GOLDEN * np.arange(number), 1.0 - (2.0 * np.arange(number) + 1.0) / number
             flat = np.sqrt(1.0 - up**2)
             out = np.column_stack([flat * np.cos(turn), flat * np.sin(turn), up])
-            position = self.center + max(radius, 0.0) * out
+            position = self.center + radius * out
             found.append((position, out, np.full(number, k)))
         return _stacked(found)
 
