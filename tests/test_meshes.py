@@ -278,3 +278,14 @@ def test_thin_plate_is_refused(tmp_path):
     block([0.08, 0.08, 0.03]).export(path)
     with pytest.raises(CaseError, match=r"solid\.0\.scale = 1\.0: must be 4 spacings, 0\.04 m"):
         make_case({**TANK, "solid": [solid(path)]})
+
+
+def test_check_warns_of_narrow_gaps_but_not_of_solids_that_touch():
+    box = {"shape": "box", "size": [0.05, 0.05, 0.05]}
+    row = [box | {"center": [x, 0.07, 0.065]} for x in (0.025, 0.075, 0.15)]
+    case = make_case({**TANK, "solid": row})
+    notes = [line for line in preflight(case).warnings if "gap" in line]
+    assert [note.partition(":")[0] for note in notes] == [
+        "solid.1 and solid.2", "solid.2 and the end wall",
+    ]  # fmt: skip
+    assert "2.5 spacings at the narrowest" in notes[0]
