@@ -37,7 +37,8 @@ def _parser():
     parser.add_argument("--no-pictures", action="store_true", help="draw no pictures at the end")
     parser.add_argument("--check", action="store_true", help="look at the case, run nothing")
     parser.add_argument("--draw", metavar="PNG",
-                        help="with --check: draw the wavemaker's motion and spectrum")  # fmt: skip
+                        help="with --check: draw the wavemaker's motion and spectrum; of a case "
+                        "with solids the tank, in a second file NAME-tank.png")  # fmt: skip
     parser.add_argument("--list", action="store_true", help="list the built-in cases")
     parser.add_argument("--keys", nargs="?", const="", metavar="TABLE",
                         help="list the keys of a case, or of one table of it")  # fmt: skip
@@ -116,9 +117,7 @@ def _prepared(options, arguments, comm, tell):
     if options.check:
         tell(f"{case.name}: {case.title}\n{report.text()}")
         if options.draw and comm.rank == 0:
-            from mpslab.analysis import paddle_picture
-
-            paddle_picture.draw(case, options.draw)
+            _draw(case, Path(options.draw))
         return None
     for warning in report.warnings:
         tell(f"Warning: {warning}", file=sys.stderr)
@@ -128,6 +127,16 @@ def _prepared(options, arguments, comm, tell):
     else:
         folder = take(RunFolder.create_next, Path("runs") / case.name)
     return Simulation(case, folder)
+
+
+def _draw(case, path):
+    """The pictures of --check: the motion of the wavemaker, and the tank with its solids."""
+    from mpslab.analysis import paddle_picture, tank_picture
+
+    if case.solid:
+        tank_picture.draw(case, path.with_stem(f"{path.stem}-tank"))
+    if case.wavemaker.type != "none" or not case.solid:
+        paddle_picture.draw(case, path)
 
 
 def _told(options, tell):

@@ -20,7 +20,7 @@ def test_every_key_is_written_with_its_unit_and_meaning():
     gate = {"x": 0.6, "speed": 1.0}
     force = {"name": "wall", "on": "end_wall"}
     pile = {"shape": "cylinder", "axis": "z", "center": [0.75, 0.075, 0.0], "radius": 0.03}
-    pile |= {"ends": [0.0, 0.3]}
+    pile |= {"ends": [0.0, 0.3], "size": [0.1, 0.1, 0.1]}
     zone = {"from": 1.0, "to": 1.6, "period": 1.0}
     several = {"obstacle": [box], "gate": [gate], "solid": [pile], "force": [force],
                "sponge": [zone]}  # fmt: skip

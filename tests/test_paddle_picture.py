@@ -28,6 +28,17 @@ def test_check_draws_a_picture(name, tmp_path, capsys):
     assert "stroke" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("width", [0.0, 0.3])
+def test_check_draws_the_tank_with_its_solids(width, tmp_path):
+    path = tmp_path / "tank.png"
+    ball = {"shape": "cylinder", "center": [0.7, 0.1, 0.2], "radius": 0.1}
+    case = cases.load_case("dam_break", {"tank.width": width, "solid": [ball]})
+    (tmp_path / "case.toml").write_text(cases.dumps(case))
+    assert tank.main([str(tmp_path / "case.toml"), "--check", "--draw", str(path)]) == 0
+    assert path.with_stem("tank-tank").stat().st_size > 10_000
+    assert not path.exists()  # there is no wavemaker
+
+
 def test_where_there_is_nothing_to_draw_it_is_refused(tmp_path, capsys):
     assert tank.main(["dam_break", "--check", "--draw", str(tmp_path / "a.png")]) == 2
     assert "wavemaker.type = 'none'" in capsys.readouterr().err

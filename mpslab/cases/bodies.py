@@ -3,7 +3,7 @@
 import numpy as np
 
 from mpslab.core.keys import require, require_choice, shown
-from mpslab.core.mooring import MODES
+from mpslab.core.structures import MODES
 from mpslab.core.plugins import load
 from mpslab.instruments import check_names
 from mpslab.solids.collection import solids_of

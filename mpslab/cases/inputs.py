@@ -11,12 +11,13 @@ from pathlib import Path
 
 from mpslab.core.files import replacing
 from mpslab.core.keys import toml_name
-from mpslab.core.parameters import TABLES
+from mpslab.core.parameters import LISTS, TABLES
 
-# Keys that name an input file, (table, key), and the name of its copy in a run folder.
+# Keys that name an input file, (table, key), and the name of its copy in a run folder; of tables
+# that there may be several of, with the number of the table and the suffix of the file.
 FILES = {
     (table, toml_name(item)): item.metadata["copy"]
-    for table, kind in TABLES.items()
+    for table, kind in {**TABLES, **LISTS}.items()
     for item in fields(kind)
     if "copy" in item.metadata
 }
@@ -51,12 +52,24 @@ class Input:
 def of(case):
     """The input files of a case that are there, a tuple of `Input`."""
     found = []
-    for (table, name), copy in FILES.items():
-        path = getattr(getattr(case, table), name)
+    for key, path, copy in _named(case):
         if path and Path(path).is_file():
             content = Path(path).read_bytes()
-            found.append(Input(f"{table}.{name}", copy, path, _checksum(content), content))
+            found.append(Input(key, copy, path, _checksum(content), content))
     return tuple(found)
+
+
+def _named(case):
+    """Key, path and name of the copy of all input files that the keys of a case may name."""
+    for (table, name), copy in FILES.items():
+        found = getattr(case, table)
+        if table in TABLES:
+            yield f"{table}.{name}", getattr(found, name), copy
+            continue
+        for i, one in enumerate(found):
+            path = getattr(one, name)
+            own = copy.format(number=i + 1, suffix=Path(path).suffix.lower())
+            yield f"{table}.{i}.{name}", path, own
 
 
 def keep(inputs, folder):
@@ -71,9 +84,15 @@ def pointed(case, inputs, folder=None):
     of the copies alone.
     """
     for item in inputs:
-        table, name = item.key.split(".")
+        table, *number, name = item.key.split(".")
         path = str(Path(folder).absolute() / item.copy) if folder else item.copy
-        case = replace(case, **{table: replace(getattr(case, table), **{name: path})})
+        found = getattr(case, table)
+        if number:
+            i = int(number[0])
+            found = (*found[:i], replace(found[i], **{name: path}), *found[i + 1 :])
+        else:
+            found = replace(found, **{name: path})
+        case = replace(case, **{table: found})
     return case
 
 

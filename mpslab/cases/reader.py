@@ -68,10 +68,17 @@ def with_absolute_file(tables: dict, folder: Path) -> dict:
     """The tables, with a relative path of an input file taken from a folder."""
     for table, key in FILES:
         values = tables.get(table)
-        path = values.get(key) if isinstance(values, dict) else None
-        if isinstance(path, str | Path) and str(path):
-            tables = {**tables, table: {**values, key: str(folder / path)}}
+        if isinstance(values, list | tuple):
+            tables = {**tables, table: [_absolute(one, key, folder) for one in values]}
+        elif values is not None:
+            tables = {**tables, table: _absolute(values, key, folder)}
     return tables
+
+
+def _absolute(values, key, folder):
+    path = values.get(key) if isinstance(values, dict) else None
+    named = isinstance(path, str | Path) and str(path)
+    return {**values, key: str(folder / path)} if named else values
 
 
 def _with_recipe(scheme):

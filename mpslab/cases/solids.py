@@ -6,10 +6,17 @@ import numpy as np
 
 from mpslab.core.keys import require, shown
 from mpslab.core.lattice import effective_length, rows_across
-from mpslab.solids import obstacles, shaped
+from mpslab.solids import obstacles, shaped, surfaces
 
 MOST_POINTS = 1000
 ROUND_OFF = 1e-9  # of a length
+DOUBTFUL = 0.05  # share of the space around a mesh that may be neither inside nor outside
+FLAT = ("polygon", "cylinder", "box")  # shapes for a 2-D tank
+TURNED = ("box", "mesh")
+# The key that says where a solid is, and the one that says how thick it is.
+PLACE = {"polygon": "points", "mesh": "file"}
+THICKNESS = {"polygon": "points", "cylinder": "radius", "sphere": "radius", "box": "size",
+             "mesh": "scale"}  # fmt: skip
 
 
 def check_solids(case):
@@ -17,26 +24,52 @@ def check_solids(case):
     for number, given in enumerate(case.solid):
         where = f"solid.{number}"
         _check_shape(case, where, given)
-        _check_motion(where, given)
+        _check_motion(where, given, number)
     for number, (given, shape) in enumerate(zip(case.solid, shaped.shapes(case), strict=True)):
         _check_place(case, f"solid.{number}", given, shape)
+        if given.shape == "mesh":
+            _check_mesh(f"solid.{number}", given, shape)
         _check_thickness(case, f"solid.{number}", given, shape)
 
 
 def _check_shape(case, where, given):
     flat = case.dim == 2
-    require(not (flat and given.shape == "sphere"), f"{where}.shape", given.shape,
-            "polygon or cylinder in a 2-D tank, tank.width = 0")  # fmt: skip
+    require(not flat or given.shape in FLAT, f"{where}.shape", given.shape,
+            f"{', '.join(FLAT[:-1])} or {FLAT[-1]} in a 2-D tank, tank.width = 0")  # fmt: skip
     require(not flat or given.axis == "y", f"{where}.axis", given.axis,
             "y in a 2-D tank, tank.width = 0")  # fmt: skip
     if given.shape == "polygon":
         _check_points(case, where, given.points)
-    else:
+    elif given.shape != "mesh":
         key = f"{where}.center"
         require(given.center is not None, key, given.center, f"given for a {given.shape}")
+    if given.shape in ("cylinder", "sphere"):
         require(given.radius > 0.0, f"{where}.radius", given.radius, f"> 0 for a {given.shape}")
+    if given.shape == "box":
+        positive = given.size is not None and min(given.size) > 0.0
+        require(positive, f"{where}.size", given.size, "three lengths > 0 for a box")
+    _check_rotation(where, given, flat)
     require(given.ends is None or given.ends[0] < given.ends[1], f"{where}.ends", given.ends,
             "[low, high] with low < high")  # fmt: skip
+
+
+def _check_rotation(where, given, flat):
+    key, turns = f"{where}.rotation", given.shape in TURNED
+    rule = f"[0, 0, 0] for a {given.shape}; a box or a mesh may be turned"
+    require(turns or not any(given.rotation), key, given.rotation, rule)
+    about_y = given.rotation[0] == given.rotation[2] == 0.0
+    require(not flat or about_y, key, given.rotation, "[0, angle, 0] in a 2-D tank")
+
+
+def _check_mesh(where, given, shape):
+    """Refuse triangles that are no surface of a solid."""
+    doubtful = surfaces.read(given.file, f"{where}.file").doubtful
+    rule = (
+        "the surface of a solid: what is inside it cannot be told for "
+        f"{100.0 * doubtful:.0f} % of it (winding numbers between {surfaces.DOUBTFUL[0]:g} and "
+        f"{surfaces.DOUBTFUL[1]:g}), for it is open or its triangles face all ways"
+    )
+    require(doubtful <= DOUBTFUL, f"{where}.file", given.file, rule)
 
 
 def _check_points(case, where, points):
@@ -69,8 +102,11 @@ def _cross(a, b, c, d):
     return turn(a, b, c) != turn(a, b, d) and turn(c, d, a) != turn(c, d, b)
 
 
-def _check_motion(where, given):
+def _check_motion(where, given, number):
     if given.motion in ("none", "free"):
+        return
+    if given.motion == "file":
+        shaped.motion_of(given, number)
         return
     rule = f"> 0 for motion = {given.motion!r}"
     require(given.amplitude > 0.0, f"{where}.amplitude", given.amplitude, rule)
@@ -79,8 +115,8 @@ def _check_motion(where, given):
 
 def _check_place(case, where, given, shape):
     tank, slack = case.tank, ROUND_OFF * case.tank.length
-    key = f"{where}.{'points' if given.shape == 'polygon' else 'center'}"
-    value = given.points or given.center
+    name = PLACE.get(given.shape, "center")
+    key, value = f"{where}.{name}", getattr(given, name)
     there = shape.low[0] < effective_length(case) and shape.high[0] > 0.0
     require(there, key, value, f"in the tank, x from 0 to {tank.length:g} m")
     require(
@@ -94,7 +130,7 @@ def _check_place(case, where, given, shape):
         there = shape.low[1] < width and shape.high[1] > 0.0
         require(there, key, value, f"in the tank, y from 0 to {width:g} m")
         inside = shape.low[1] >= -slack and shape.high[1] <= width + slack
-        whole = given.shape != "sphere" and given.axis == "y" and given.ends is None
+        whole = given.shape in ("polygon", "cylinder") and given.axis == "y" and given.ends is None
         rule = f"between y = 0 and {width:g} m, for the tank is periodic there"
         require(not tank.periodic or whole or inside, key, value, rule)
 
@@ -102,8 +138,8 @@ def _check_place(case, where, given, shape):
 def _check_thickness(case, where, given, shape):
     least = obstacles.least_thickness(case)
     thick = least * case.particles.spacing
-    key = f"{where}.{'points' if given.shape == 'polygon' else 'radius'}"
-    value = given.points if given.shape == "polygon" else given.radius
+    name = THICKNESS[given.shape]
+    key, value = f"{where}.{name}", getattr(given, name)
     if given.shape == "polygon" and shape.thinnest == shape.ends[1] - shape.ends[0]:
         key, value = f"{where}.ends", given.ends
     require(

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field, fields
 from mpslab.core.bed import elevation
 from mpslab.core.drive import Frame, Initial, Wavemaker
 from mpslab.core.keys import NAME, CaseError, check_table, check_value, key, shown
-from mpslab.core.mooring import MODES, Mooring
 from mpslab.core.readings import Force, Gauge, Overtopping, Probe, Runup
 from mpslab.core.scheme import Scheme
+from mpslab.core.structures import Mooring, Solid
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,78 +112,6 @@ class Gate:
     speed: float = key("speed at which it is lifted", unit="m/s", above=0, high=1e3)
     opens: float = key("time at which it begins to rise", 0.0, unit="s", low=0)
     name: str | None = key("its name; gate-1 and so on if left out", None, **NAME)
-
-    def __post_init__(self):
-        check_table(self)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Solid:
-    """A solid of any shape, with smooth faces at any angle; at rest, on a path, or afloat."""
-
-    name: str | None = key("its name; solid-1 and so on if left out", None, **NAME)
-    shape: str = key("its shape", choices=("polygon", "cylinder", "sphere"), kind="text")
-    points: tuple = key(
-        "corners of a polygon, closed and without crossings: [x, z], with axis 'z' [x, y]",
-        (),
-        kind="points",
-        unit="m",
-    )
-    center: tuple | None = key(
-        "centre [x, y, z] of a cylinder or sphere; along the axis of a cylinder it does not count",
-        None,
-        kind="point",
-        unit="m",
-    )
-    radius: float = key("radius of a cylinder or sphere", 0.0, unit="m", low=0)
-    axis: str = key(
-        "axis along which polygon and cylinder are drawn out: across the tank, or upright",
-        "y",
-        choices=("y", "z"),
-    )
-    ends: tuple | None = key(
-        "where it ends along its axis [low, high]; as far as the tank reaches if left out",
-        None,
-        kind="place",
-        unit="m",
-    )
-    motion: str = key(
-        "a sine along x (sway), z (heave) or about an axis across (roll); free for a body that the "
-        "water moves; none for a solid at rest",
-        "none",
-        choices=("none", "sway", "heave", "roll", "free"),
-    )
-    amplitude: float = key("amplitude of the sine", 0.0, unit="m, of roll deg", low=0, high=1e3)
-    period: float = key("period of the sine", 0.0, unit="s", low=0)
-    start: float = key("time in which the motion fades in; 0 for none", 0.0, unit="s", low=0)
-    about: tuple = key("axis of the roll [x, z]", (0.0, 0.0), kind="place", unit="m")
-    density: float = key("mean density of a free body; or mass", 0.0, unit="kg/m3", low=0, high=1e6)
-    mass: float = key("mass of a free body", 0.0, unit="kg, in 2-D kg/m", low=0)
-    center_of_mass: tuple | None = key(
-        "centre of mass [x, y, z] of a free body; that of its shape if left out",
-        None,
-        kind="point",
-        unit="m",
-    )
-    inertia: tuple = key(
-        "moments of inertia about axes along x, y, z through the centre of mass, [Ixx, Iyy, Izz], "
-        "in 2-D [Iyy]; those of an even density if left out",
-        (),
-        kind="numbers",
-        unit="kg m2, in 2-D kg m",
-        above=0,
-    )
-    locked: tuple = key(
-        "how a free body cannot move: along axes, or turning about y (roll), x (pitch), z (yaw)",
-        (),
-        kind="texts",
-        choices=MODES,
-    )
-    velocity: tuple = key(
-        "velocity [u, v, w] with which a free body is let go", (0.0, 0.0, 0.0), kind="point",
-        unit="m/s", low=-1e3,
-    )  # fmt: skip
-    release: float = key("time until which a free body is held", 0.0, unit="s", low=0)
 
     def __post_init__(self):
         check_table(self)

@@ -10,15 +10,11 @@ The first part is gravity, turned, less the acceleration of the axis; then come 
 centrifugal and Coriolis's acceleration.  Gravity is a forcing of its own; this one gives the rest.
 """
 
-import csv
-from pathlib import Path
-
 import numpy as np
 
-from mpslab.core.keys import CaseError, require
-from mpslab.core.motion import Table, oscillation
-
-COLUMNS = {"x": 1.0, "z": 1.0, "roll": np.pi / 180.0}  # of a file, in m, m and rad
+from mpslab.core import motion_file
+from mpslab.core.keys import require
+from mpslab.core.motion import oscillation
 
 
 def make(case):
@@ -68,47 +64,8 @@ def motion_of(frame):
         If amplitude or period is 0, or the file cannot be read, or is no such table.
     """
     if frame.type == "file":
-        exists = bool(frame.file) and Path(frame.file).is_file()
-        require(exists, "frame.file", frame.file, "a CSV file that exists")
-        return Table(*_read(frame.file), frame.center)
+        return motion_file.read(frame.file, "frame.file", frame.center)
     rule = f"> 0 for frame.type = {frame.type!r}"
     require(frame.amplitude > 0.0, "frame.amplitude", frame.amplitude, rule)
     require(frame.period > 0.0, "frame.period", frame.period, rule)
     return oscillation(frame.type, frame.amplitude, frame.period, frame.start, frame.center)
-
-
-def _read(path):
-    """Times (n,) [s] and values (n, 3) [m], [m], [rad] of a file."""
-    where = f"frame.file = {str(path)!r}"
-    try:
-        with open(path, newline="", encoding="utf-8-sig") as stream:
-            rows = [row for row in csv.reader(stream) if row]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise CaseError(f"{where}: cannot be read as a CSV file ({error})") from error
-    names = [cell.partition("[")[0].strip() for cell in rows[0]] if rows else []
-    if names[:1] != ["time"] or not set(names[1:]) <= set(COLUMNS) or len(names) != len(set(names)):
-        raise CaseError(
-            f"{where}: heading {','.join(rows[0] if rows else [])!r}: must be time [s] and any of "
-            "x [m], z [m] and roll [deg], parted by commas"
-        )
-    table = np.array([_numbers(row, len(names), where, i) for i, row in enumerate(rows[1:], 2)])
-    if len(table) < 3 or len(names) < 2:
-        raise CaseError(f"{where}: must have 3 rows of numbers or more, in 2 columns or more")
-    late = np.flatnonzero(np.diff(table[:, 0]) <= 0.0)
-    if len(late):
-        raise CaseError(f"{where}, row {late[0] + 3}: time must be above that of the row before")
-    values = np.zeros((len(table), len(COLUMNS)))
-    for k, (name, unit) in enumerate(COLUMNS.items()):
-        if name in names:
-            values[:, k] = unit * table[:, names.index(name)]
-    return table[:, 0], values
-
-
-def _numbers(row, count, where, line):
-    try:
-        numbers = [float(cell) for cell in row]
-    except ValueError:
-        numbers = []
-    if len(numbers) != count or not np.all(np.abs(numbers) < 1e9):
-        raise CaseError(f"{where}, row {line}: {','.join(row)!r} must be {count} finite numbers")
-    return numbers

@@ -17,8 +17,9 @@ from mpslab.parallel import balance
 from mpslab.run.flow import slabs_of, solver_of
 from mpslab.run.preflight_bodies import bodies
 from mpslab.run.preflight_frame import tank_motion
+from mpslab.run.preflight_solids import gaps, solids
 from mpslab.run.preflight_text import sections
-from mpslab.solids import filling, gates, obstacles, shaped
+from mpslab.solids import filling, gates, obstacles
 from mpslab.solids.census import census
 from mpslab.solids.piston import make_paddle
 from mpslab.theory import breaking, waves
@@ -54,6 +55,8 @@ class Preflight:
         - "particles": how many of each kind; "spacing [m]", "spacings_over_depth"; "tank_length
           [m]" and "tank_width [m]" in whole spacings; "laid_out": faces of the boxes of water,
           obstacles and gates, {"gate.0": {"x [m]": [low, high]}}, None for the bed or a wall;
+          "solids": of each by name its "shape", "x [m]" and so on, "thinnest [m]", "volume [m3]"
+          (in 2-D "area [m2]") and, of a mesh, what was "mended" of its surface;
         - "time_step [s]", "time_step_limit" (what holds it), "largest_time_step [s]", "end [s]",
           "steps", "run_time [s]" (on one core), "memory [B]";
         - "frames", "frame [B]", "readings" (rows of gauges.csv), "tables [B]";
@@ -114,7 +117,7 @@ def preflight(case):
     """
     size = sizes(case)
     paddle = make_paddle(case)
-    notes = list(warnings(case, paddle))
+    notes = [*warnings(case, paddle), *gaps(case)]
     count = census(case, paddle.backmost if paddle else 0.0)
     found = {
         **_particles(case, count),
@@ -168,7 +171,7 @@ def _particles(case, count):
         "tank_length [m]": effective_length(case),
         "tank_width [m]": across,
         "laid_out": {**_water(case), **_obstacles(case), **_gates(case)},
-        "solids": _solids(case),
+        "solids": solids(case),
     }
 
 
@@ -194,24 +197,6 @@ def _obstacles(case):
         }
         for i, (low, high) in enumerate(obstacles.blocks(case) * case.particles.spacing)
     }
-
-
-def _solids(case):
-    """Of the solids of any shape, by name: what they cover, and how thin they are."""
-    axes = [0, 1, 2] if case.dim == 3 else [0, 2]
-    return {
-        given.name: {
-            "shape": given.shape,
-            **{f"{'xyz'[k]} [m]": [_end(shape.low[k]), _end(shape.high[k])] for k in axes},
-            "thinnest [m]": _end(shape.thinnest),
-        }
-        for given, shape in zip(case.solid, shaped.shapes(case), strict=True)
-    }
-
-
-def _end(place):
-    """A place as JSON can hold it: None where there is no end."""
-    return float(place) if np.isfinite(place) else None
 
 
 def _gates(case):

@@ -56,7 +56,10 @@ def _solid(solid, spacing):
     sides = [_side(axis[0], *ends) for axis, ends in solid.items() if axis[1:] == " [m]"]
     thin = solid["thinnest [m]"]
     across = f", {thin / spacing:.3g} spacings at the thinnest" if thin else ""
-    return f"{solid['shape']}, {', '.join(sides)}{across}"
+    of = f", {solid['volume [m3]']:.4g} m3" if "volume [m3]" in solid else ""
+    of = f", {solid['area [m2]']:.4g} m2" if "area [m2]" in solid else of
+    mended = f" ({'; '.join(solid['mended'])})" if "mended" in solid else ""
+    return f"{solid['shape']}, {', '.join(sides)}{of}{across}{mended}"
 
 
 def _body(body, spacing):

@@ -5,9 +5,11 @@ An outline has
     distance(points) -> (n,) float64 [m]
         Of places (n, 2) [m], negative inside.
     ring(depth, spacing) -> points (m, 2) [m], normals (m, 2)
-        Particles about a spacing apart on the line so far inside, and the directions out of it.
+        Particles about a spacing apart on the line so far inside, and the directions out of it. In
+        a circle they stand in the middle of the area that they stand for, a little farther out.
     low, high : (2,) float64 [m]
         The corners of what it covers.
+    area : float [m2]
     thinnest : float [m]
         Least distance across it; of sides that meet in a corner none.
 """
@@ -28,7 +30,7 @@ class Circle:
     def __init__(self, center, radius):
         self.center, self.radius = np.asarray(center, float), radius
         self.low, self.high = self.center - radius, self.center + radius
-        self.thinnest = 2.0 * radius
+        self.thinnest, self.area = 2.0 * radius, np.pi * radius**2
 
     def distance(self, points):
         return np.hypot(*(points - self.center).T) - self.radius
@@ -38,6 +40,9 @@ class Circle:
         if radius < 0.25 * spacing:
             count = int(radius > -0.25 * spacing)
             return self.center + np.zeros((count, 2)), np.zeros((count, 2))
+        # Where the middle of the area of a ring is that is a spacing wide.
+        outer, inner = radius + 0.5 * spacing, max(radius - 0.5 * spacing, 0.0)
+        radius = 2.0 / 3.0 * (outer**3 - inner**3) / (outer**2 - inner**2)
         angle = 2.0 * np.pi * _parts(2.0 * np.pi * radius / spacing)
         out = np.column_stack([np.cos(angle), np.sin(angle)])
         return self.center + radius * out, out
@@ -50,6 +55,7 @@ class Polygon:
         corners = np.asarray(corners, float)
         self.corners = corners if _area(corners) > 0.0 else corners[::-1]
         self.low, self.high = corners.min(axis=0), corners.max(axis=0)
+        self.area = abs(_area(corners))
 
     @cached_property
     def _sides(self):

@@ -6,12 +6,13 @@ from itertools import product
 import numpy as np
 
 from mpslab.core import bed as beds
-from mpslab.core import lattice
+from mpslab.core import lattice, motion_file
 from mpslab.core.motion import oscillation
 from mpslab.core.particles import FACE, FILLER
-from mpslab.solids import obstacles
+from mpslab.solids import obstacles, surfaces
+from mpslab.solids.meshes import Mesh
 from mpslab.solids.outlines import Circle, Polygon
-from mpslab.solids.shapes import Prism, Sphere
+from mpslab.solids.shapes import Box, Prism, Sphere, turned
 from mpslab.solids.solid import Solid
 
 CLEAR = 0.5  # spacings from the water, as it is laid, to a face at the least
@@ -20,17 +21,23 @@ SAMPLES = {2: 300, 3: 60}  # along an axis, of the box around a solid
 
 def shapes(case):
     """The shapes of the solids of a case, a tuple."""
-    return _shapes(case.solid, case.tank, case.particles.spacing)
+    return _shapes(case.solid, case.tank, case.particles)
 
 
 @lru_cache(maxsize=4)
-def _shapes(solids, tank, spacing):
-    return tuple(_shape(given, tank, spacing) for given in solids)
+def _shapes(solids, tank, particles):
+    return tuple(_shape(given, tank, particles, number) for number, given in enumerate(solids))
 
 
-def _shape(given, tank, spacing):
+def _shape(given, tank, particles, number):
+    spacing = particles.spacing
     if given.shape == "sphere":
         return Sphere(given.center, given.radius)
+    if given.shape == "mesh":
+        surface = surfaces.read(given.file, f"solid.{number}.file")
+        return Mesh(*placed(given, surface), spacing, particles.layers, _window(tank, spacing))
+    if given.shape == "box" and tank.width > 0.0:
+        return Box(given.center, given.size, turned(given.rotation))
     if given.axis == "z":
         first, last = lowest(tank) - spacing, tank.height
     elif tank.width > 0.0:
@@ -49,9 +56,25 @@ def lowest(tank):
     return min(z for _, z in tank.bed)
 
 
+def placed(given, surface):
+    """Vertices [m] and faces of the surface of a mesh, where it is to be in the tank."""
+    size = given.scale * surfaces.UNITS[given.unit]
+    vertices = size * surface.vertices @ turned(given.rotation).T
+    return vertices + np.array(given.center or (0.0, 0.0, 0.0)), surface.faces
+
+
+def _window(tank, spacing):
+    """Corners of the tank and a spacing around it, (2, 3) [m]."""
+    return np.array([[-spacing, -spacing, lowest(tank) - spacing],
+                     [tank.length + spacing, tank.width + spacing, tank.height]])  # fmt: skip
+
+
 def _outline(given):
     if given.shape == "polygon":
         return Polygon(given.points)
+    if given.shape == "box":
+        sides = 0.5 * np.array(given.size) * [[-1, 0, -1], [1, 0, -1], [1, 0, 1], [-1, 0, 1]]
+        return Polygon((given.center + sides @ turned(given.rotation).T)[:, [0, 2]])
     plane = (0, 2) if given.axis == "y" else (0, 1)
     return Circle([given.center[k] for k in plane], given.radius)
 
@@ -72,7 +95,7 @@ class Shaped(Solid):
         super().__init__(given.name)
         self.case, self.number, self.tank = case, number, tank
         self.shape = shapes(case)[number]
-        self.motion = motion_of(given)
+        self.motion = motion_of(given, number)
 
     def particles(self, case):
         spacing = case.particles.spacing
@@ -89,10 +112,12 @@ class Shaped(Solid):
         return self.shape.distance(points) < 0.0
 
 
-def motion_of(given):
-    """The prescribed motion of a table ``[[solid]]``, None for one that has none."""
+def motion_of(given, number):
+    """The prescribed motion of a table ``solid.NUMBER``, None for one that has none."""
     if given.motion in ("none", "free"):
         return None
+    if given.motion == "file":
+        return motion_file.read(given.motion_file, f"solid.{number}.motion_file", given.about)
     return oscillation(given.motion, given.amplitude, given.period, given.start, given.about)
 
 
@@ -148,15 +173,26 @@ class Raster:
 
 
 def _rasters(case):
-    tank, spacing = case.tank, case.particles.spacing
-    return _made_rasters(case.solid, tank, spacing)
+    return _made_rasters(case.solid, case.tank, case.particles)
 
 
 @lru_cache(maxsize=4)
-def _made_rasters(solids, tank, spacing):
-    box = np.array([[-spacing, -spacing, lowest(tank) - spacing],
-                    [tank.length + spacing, tank.width + spacing, tank.height]])  # fmt: skip
-    return tuple(Raster(shape, box, spacing) for shape in _shapes(solids, tank, spacing))
+def _made_rasters(solids, tank, particles):
+    box = _window(tank, particles.spacing)
+    return tuple(Raster(shape, box, particles.spacing)
+                 for shape in _shapes(solids, tank, particles))  # fmt: skip
+
+
+@lru_cache(maxsize=8)
+def _faces(shape, spacing):
+    position, normal, layer = shape.layers(spacing, 1)
+    first = layer == 0
+    return position[first] + 0.5 * spacing * normal[first]
+
+
+def faces(case, number):
+    """Points of the face of a solid, about a spacing apart: (n, 3) [m], in the tank or not."""
+    return _faces(shapes(case)[number], case.particles.spacing)
 
 
 def give_way(case, water):
@@ -198,7 +234,7 @@ def cover(case, position, role):
 
 def taken(case, start, end):
     """Volume [m3], in 2-D area [m2], that the solids take of a box [m] above the bed, roughly."""
-    return sum(_share(case, shape, start, end, 0.0) for shape in shapes(case))
+    return sum(_shares(case, shape, start, end, [0.0])[0] for shape in shapes(case))
 
 
 def count(case):
@@ -207,29 +243,28 @@ def count(case):
     everywhere = np.full(3, -np.inf), np.full(3, np.inf)
     total = np.zeros(2)
     for shape in shapes(case):
-        whole, within, core = (
-            _share(case, shape, *everywhere, depth) for depth in (0.0, spacing, layers * spacing)
-        )
+        depths = [0.0, spacing, layers * spacing]
+        whole, within, core = _shares(case, shape, *everywhere, depths)
         total += np.array([whole - within, within - core]) / spacing**case.dim
     return total
 
 
-def _share(case, shape, start, end, depth):
-    """Volume of what of a shape is so far inside it [m], in a box [m] of the tank."""
+def _shares(case, shape, start, end, depths):
+    """Volume of what of a shape is so far inside it [m], for each depth, in a box of the tank."""
     tank, length = case.tank, lattice.effective_length(case)
     low = np.maximum.reduce([shape.low, start, (0.0, 0.0, lowest(tank))])
     high = np.minimum.reduce([shape.high, end, (length, tank.width, tank.height)])
     axes = [0, 1, 2] if case.dim == 3 else [0, 2]
     sides = (high - low)[axes]
     if not np.all(sides > 0.0):
-        return 0.0
+        return [0.0] * len(depths)
     number = SAMPLES[case.dim]
     grid = np.meshgrid(*((np.arange(number) + 0.5) / number for _ in axes), indexing="ij")
     places = np.zeros((number**case.dim, 3))
     places[:, axes] = low[axes] + np.column_stack([one.ravel() for one in grid]) * sides
-    inside = shape.distance(places) < -depth
-    inside &= places[:, 2] > beds.elevation(case.tank.bed, places[:, 0])
-    return float(inside.mean() * np.prod(sides))
+    places = places[places[:, 2] > beds.elevation(case.tank.bed, places[:, 0])]
+    distance, each = shape.distance(places), np.prod(sides) / number**case.dim
+    return [float(np.count_nonzero(distance < -depth) * each) for depth in depths]
 
 
 def _open(case, place):
