@@ -3,8 +3,8 @@
 import numpy as np
 
 from mpslab.core.keys import require, require_choice, shown
-from mpslab.core.structures import MODES
 from mpslab.core.plugins import load
+from mpslab.core.structures import MODES
 from mpslab.instruments import check_names
 from mpslab.solids.collection import solids_of
 from mpslab.solids.contact import APART, Contact

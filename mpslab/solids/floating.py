@@ -13,8 +13,8 @@ about axes through the centre of mass in these directions.
 import numpy as np
 
 from mpslab.core import lattice, rotation
-from mpslab.core.structures import MODES
 from mpslab.core.particles import FIRST_SOLID
+from mpslab.core.structures import MODES
 from mpslab.solids.mass import bulk
 from mpslab.solids.shaped import Shaped, shapes
 
