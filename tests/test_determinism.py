@@ -133,9 +133,10 @@ def test_stabilisers_do_not_depend_on_the_address(name):
 def test_friction_does_not_depend_on_the_address():
     def drag(by):
         near, keys = placed(by), Scheme(smagorinsky=0.1)
-        eddy = friction.eddies(near, keys, id)
+        seen = friction.velocity_seen(near, keys, id)
+        eddy = friction.eddies(near, seen, keys, id)
         fluid = Fluid(viscosity=1.0)
-        return bytes_of(friction.acceleration(near, near.stencil, eddy, fluid, keys))
+        return bytes_of(friction.acceleration(near, near.stencil, seen, eddy, fluid, keys))
 
     assert len({drag(by) for by in (0, *SHIFTS)}) == 1
 

@@ -99,6 +99,8 @@ def test_heading_of_every_built_in_case_names_its_recipe():
         case = tomllib.loads(cases.dumps(cases.load_case(name)))
         other = " with wall_slip false, smagorinsky 0.12" if name == "dam_break" else ""
         assert headings.models(case) == "recipe standard" + other
+        if name == "floating_box":  # refused with other walls
+            continue
         case = tomllib.loads(cases.dumps(cases.load_case(name, {"scheme.recipe": "paper"})))
         assert headings.models(case) == "recipe paper" + other
 

@@ -128,7 +128,7 @@ def test_viscosity_is_seen_in_the_number_of_steps():
     report = preflight(cases.load_case("hydrostatic", changes))
     lines = dict(report.sections["Cost (one core, rough)"])
     assert lines["limit of the time step"] == "viscous"
-    assert lines["expected steps"] == "2,187,500 to t = 0.125 s"
+    assert lines["expected steps"] == "4,375,000 to t = 0.125 s"
     assert any("fluid.viscosity = 14 m2/s" in line for line in report.warnings)
     assert not preflight(cases.load_case("hydrostatic")).warnings
 

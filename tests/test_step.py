@@ -11,6 +11,8 @@ from mpslab.core.stopwatch import PHASES
 from mpslab.run.step import advance
 
 D0, DT = 0.002, 1e-4
+# A square lattice resists shear along its rows by so much less: 8 sum w x^2 z^2/r^2 / (lambda0 n0).
+SOFTER = 0.8545
 
 
 def block(changes=None):
@@ -22,7 +24,7 @@ def block(changes=None):
 
 @pytest.mark.parametrize("viscosity", [0.0, 1e-4, 1e-3])
 def test_viscosity_slows_a_parabolic_profile_at_its_rate(viscosity):
-    """du/dt = nu d2u/dz2 inside the block."""
+    """du/dt = nu d2u/dz2 inside the block, along the rows of a square lattice (`SOFTER`)."""
     flow, x = block({"fluid.viscosity": viscosity})
     flow.time = 1.0  # from when on the density of a block in the air keeps its pressure at zero
     curvature = 40.0
@@ -30,7 +32,7 @@ def test_viscosity_slows_a_parabolic_profile_at_its_rate(viscosity):
     before = flow.particles.velocity[:, 0].copy()
     run(flow, 1, DT)
     change = (flow.particles.velocity[:, 0] - before)[inside(x, 5 * D0)]
-    np.testing.assert_allclose(change, viscosity * curvature * DT, rtol=0.01, atol=1e-9)
+    np.testing.assert_allclose(change, SOFTER * viscosity * curvature * DT, rtol=0.01, atol=1e-9)
 
 
 def test_periodic_tank_brings_water_back_across():

@@ -52,6 +52,7 @@ def advance(flow, dt):
             report = flow.coupling.solve(flow, system, rows, pull, dt)
         else:
             report = pressing.solve(flow, system, rows, pull)
+        system.prepared = None  # it refers to the system, and would keep its memory for a while
     with watch.phase("operators"):
         _correct(flow, start, dt)
         for one in flow.exchanges:

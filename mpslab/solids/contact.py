@@ -123,7 +123,8 @@ def points_of(body, spacing):
     """Points on the faces of a body about a spacing apart, from its centre, as laid out, (n, 3)."""
     position, normal, layer = body.shape.layers(spacing, 1)
     first = layer == 0
-    return position[first] + 0.5 * spacing * normal[first] - body.start
+    position, normal = position[first], normal[first]
+    return position - body.shape.distance(position)[:, None] * normal - body.start
 
 
 class Contact:
