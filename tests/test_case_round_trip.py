@@ -28,7 +28,10 @@ def test_every_key_is_written_with_its_unit_and_meaning():
     text += cases.dumps(cases.load_case("overtopping"))
     barge = {"shape": "box", "center": [2.0, 0.0, 0.4], "size": [0.3, 0.1, 0.2], "name": "box",
              "motion": "free", "mass": 30.0, "center_of_mass": [2.0, 0.0, 0.38]}  # fmt: skip
-    text += cases.dumps(cases.load_case("floating_box", {"solid": [barge]}))
+    line = {"on": "box", "anchor": [1.0, 0.0, 0.0], "at": [1.85, 0.0, 0.4], "stiffness": 10.0,
+            "length": 1.0}  # fmt: skip
+    afloat = {"solid": [barge], "mooring": [line]}
+    text += cases.dumps(cases.load_case("floating_box", afloat))
     for kind in (*TABLES.values(), *LISTS.values()):
         for item in fields(kind):
             assert re.search(
