@@ -40,6 +40,8 @@ class Neighbourhood:
     offset : (m + LANES, 4) float32
         r_ij [m] and w/r^2 [1/m2]; what is behind the m pairs means nothing. Of water to smooth
         solids only the part of r_ij along their normal.
+    straight : (m + LANES, 4) float32
+        r_ij [m] as it is, of pairs of water with solids.
     inverse : (m + LANES,) float32
         1/r [1/m].
     position : (n, 4) float64 [m]
@@ -78,9 +80,10 @@ class Neighbourhood:
         self.other, self.solid = neighbors.indices, np.empty(n, np.int32)
         self.position = padded(particles.position)
         self.first, self.second = np.empty((n, 4)), np.empty((n, 3, 4))
+        self.straight = np.empty_like(self.offset) if smooth else self.offset
         measure.measure(
             self.position, particles.role, self.row, self.other, self.stencil, smooth, self.solid,
-            self._behind, self.offset, self.inverse, self.first, self.second,
+            self._behind, self.offset, self.straight, self.inverse, self.first, self.second,
         )  # fmt: skip
         self._correction = self._lean = self._close = None
         return self

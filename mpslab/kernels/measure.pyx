@@ -8,6 +8,8 @@ from mpslab.kernels.pair cimport FLUID, LANES
 
 # Spacings along the normal to the particles of a wall: at the least so many, or it is no flat one.
 cdef double LEAST = 0.25
+# Share of a push along the normal that the hollows of a flat wall make along it, at the most.
+cdef double WASHBOARD = 0.07
 # Rows of so many pairs are taken through all three parts at a time, and stay in the cache.
 cdef enum:
     PAIRS = 1024
@@ -15,13 +17,14 @@ cdef enum:
 
 def measure(const double[:, ::1] position, const signed char[::1] role, const int[::1] row,
             int[::1] other, stencil, bint smooth, int[::1] solid, int[::1] behind,
-            float[:, ::1] offset, float[::1] inverse, double[:, ::1] first,
-            double[:, :, ::1] second):
+            float[:, ::1] offset, float[:, ::1] straight, float[::1] inverse,
+            double[:, ::1] first, double[:, :, ::1] second):
     """Geometry of each pair and its sums over the neighbours of each particle.
 
     position : (n, 4) [m], the fourth number 0
     row, other : of the neighbour list; in each row of `other` water is put before solids
     smooth : whether r_ij from water to solids is only its part along their normal, see `flatten`
+    straight : (m + LANES, 4) out where smooth, r_ij as it is from water to solids
     solid : (n,) out, first solid neighbour in each row of `other`
     behind : scratch, as long as the longest row
     offset : (m + LANES, 4) out, r_ij [m] and w/r^2 [1/m2]; the rounded difference of two doubles,
@@ -43,7 +46,7 @@ def measure(const double[:, ::1] position, const signed char[::1] role, const in
             invert(row[begin], row[end], floor, inverse)
             for i in range(begin, end):
                 if smooth and role[i] == FLUID and solid[i] < row[i + 1]:
-                    flatten(solid[i], row[i + 1], radius, least, inverse, offset)
+                    flatten(solid[i], row[i + 1], radius, least, inverse, offset, straight)
                 add_up(i, row, radius, offset, inverse, first, second)
             begin = end
 
@@ -112,18 +115,25 @@ cdef inline void invert(Py_ssize_t begin, Py_ssize_t end, float floor,
 
 
 cdef inline void flatten(Py_ssize_t begin, Py_ssize_t end, float radius, double least,
-                         const float[::1] inverse, float[:, ::1] offset) noexcept nogil:
-    """n (n . r_ij) in place of r_ij for the solids of a row, n being their normal.
+                         const float[::1] inverse, float[:, ::1] offset,
+                         float[:, ::1] straight) noexcept nogil:
+    """n (n . r_ij) in place of r_ij for the solids of a row, n their normal; r_ij goes to straight.
 
     A wall of particles is a washboard: along it their forces hold the water in its hollows.  The
     normal is that of sum_j (1 - r^2/r_e^2)^3 r_ij, which hardly feels the single particles.  In
-    corners and gaps there is none, and r_ij stays: some solids are less than `least` away along n.
+    corners and gaps and beside edges there is none, and r_ij stays: some solids are less than
+    `least` away along n, or the sum of w r_ij/r^2 points elsewhere by more than hollows make it.
     """
     cdef Py_ssize_t k
-    cdef double q, c, length, x = 0, y = 0, z = 0
+    cdef double q, c, length, x = 0, y = 0, z = 0, sx = 0, sy = 0, sz = 0
     for k in range(begin, end):
+        straight[k, 0], straight[k, 1], straight[k, 2] = offset[k, 0], offset[k, 1], offset[k, 2]
         q = 1.0 / (inverse[k] * radius)
         if q < 1.0:
+            c = (1.0 / q - 1.0) * inverse[k] * inverse[k]
+            sx += c * offset[k, 0]
+            sy += c * offset[k, 1]
+            sz += c * offset[k, 2]
             c = (1.0 - q * q) * (1.0 - q * q) * (1.0 - q * q)
             x += c * offset[k, 0]
             y += c * offset[k, 1]
@@ -132,6 +142,9 @@ cdef inline void flatten(Py_ssize_t begin, Py_ssize_t end, float radius, double 
     if length == 0.0:
         return
     x, y, z = x / length, y / length, z / length
+    length = x * sx + y * sy + z * sz
+    if sx * sx + sy * sy + sz * sz > (1.0 + WASHBOARD * WASHBOARD) * length * length:
+        return
     for k in range(begin, end):
         if (inverse[k] * radius > 1.0
                 and x * offset[k, 0] + y * offset[k, 1] + z * offset[k, 2] < least):

@@ -41,13 +41,13 @@ def predicted_velocity(particles, pull_, dt):
 def flux(near, stencil, pair_terms, pull_):
     """What the walls' known differences of pressure add to the right-hand side, (n,) [1/s2]."""
     out = np.empty(len(near.particles))
-    kernels.flux(near.row, near.solid, near.other, near.offset, near.inverse, stencil, pair_terms,
+    kernels.flux(near.row, near.solid, near.other, near.straight, near.inverse, stencil, pair_terms,
                  pull_, out)  # fmt: skip
     return out
 
 
 def fill(near, density, pull_, clip):
     """Give the solids the pressure of the water in front of them, in place; with `clip` not < 0."""
-    kernels.extrapolate(near.row, near.solid, near.other, near.offset, near.inverse,
+    kernels.extrapolate(near.row, near.solid, near.other, near.straight, near.inverse,
                         near.particles.role, near.stencil, density, pull_, clip,
                         near.particles.pressure, np.empty(len(near.particles)))  # fmt: skip
