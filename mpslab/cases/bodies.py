@@ -8,7 +8,7 @@ from mpslab.core.structures import MODES
 from mpslab.instruments import check_names
 from mpslab.solids.collection import solids_of
 from mpslab.solids.contact import APART, Contact
-from mpslab.solids.floating import FLAT
+from mpslab.solids.floating import FLAT, weigh
 
 OWN = ("density", "mass", "center_of_mass", "inertia", "locked", "velocity", "release")
 STIFFEST = 0.5  # of a line: its frequency times the largest step
@@ -22,7 +22,7 @@ def check_bodies(case):
     if free:
         _check_scheme(case)
         _check_room(case, free)
-    _check_moorings(case, [case.solid[i].name for i in free])
+    _check_moorings(case, {case.solid[i].name: i for i in free})
 
 
 def _check_none(where, given):
@@ -97,15 +97,10 @@ def _check_moorings(case, bodies):
         where = f"mooring.{i}"
         require(bool(bodies), where, given.on, "left out where no solid has motion = 'free'")
         require_choice(f"{where}.on", given.on, bodies)
-        mass = _mass(case, given.on)
+        mass = weigh(case, bodies[given.on])[0]
         most = mass * (STIFFEST / step) ** 2 if step else np.inf
         rule = f"<= {most:.4g} N/m: a stiffer line swings faster than steps of {step:.3g} s follow"
         require(given.stiffness <= most, f"{where}.stiffness", given.stiffness, rule)
         most = mass * STIFFEST / step if step else np.inf
         rule = f"<= {most:.4g} N s/m: more would turn the body round within steps of {step:.3g} s"
         require(given.damping <= most, f"{where}.damping", given.damping, rule)
-
-
-def _mass(case, name):
-    (body,) = [body for body in solids_of(case).free if body.name == name]
-    return body.mass

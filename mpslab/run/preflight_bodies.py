@@ -6,6 +6,7 @@ from mpslab.cases.bodies import gaps_of
 from mpslab.solids import mass
 from mpslab.solids.floating import weigh
 from mpslab.solids.shaped import shapes
+from mpslab.solids.shapes import samples
 
 SAMPLES = {2: 400, 3: 100}  # along an axis, of the box around a body
 
@@ -51,9 +52,7 @@ def _afloat(case, shape, weight, center):
     axes = [0, 1, 2] if case.dim == 3 else [0, 2]
     count, low, sides = SAMPLES[case.dim], shape.low[axes], (shape.high - shape.low)[axes]
     share = (np.arange(count) + 0.5) / count
-    grid = np.meshgrid(*(share for _ in axes), indexing="ij")
-    places = np.zeros((count ** len(axes), 3))
-    places[:, axes] = low + sides * np.column_stack([one.ravel() for one in grid])
+    places = samples(shape.low, shape.high, axes, count)
     inside = (shape.distance(places) < 0.0).reshape((count,) * len(axes))
     cell = float(np.prod(sides) / count ** len(axes))
     layers = cell * inside.sum(axis=tuple(range(len(axes) - 1)))  # volume of each, from below

@@ -12,6 +12,7 @@ from mpslab.core import lattice
 from mpslab.core.motion import center_of
 from mpslab.solids import gates, obstacles
 from mpslab.solids.outlines import Polygon
+from mpslab.solids.shaped import faces
 from mpslab.theory.algebra import dot
 
 APART = 1.0  # spacings: the least distance of two faces
@@ -119,14 +120,6 @@ def targets(case, solids):
     return found
 
 
-def points_of(body, spacing):
-    """Points on the faces of a body about a spacing apart, from its centre, as laid out, (n, 3)."""
-    position, normal, layer = body.shape.layers(spacing, 1)
-    first = layer == 0
-    position, normal = position[first], normal[first]
-    return position - body.shape.distance(position)[:, None] * normal - body.start
-
-
 class Contact:
     """The contacts of the free bodies of a run.
 
@@ -142,7 +135,7 @@ class Contact:
         self.bodies, self.targets = bodies, targets(case, solids)
         self.apart, self.step = APART * spacing, 1e-3 * spacing
         self.axes = np.eye(3)[[0, 2] if case.dim == 2 else [0, 1, 2]]
-        self.points = [points_of(body, spacing) for body in bodies]
+        self.points = [faces(case, body.number) - body.start for body in bodies]
         self.reach = [np.sqrt(np.sum(points**2, axis=1).max()) for points in self.points]
 
     def gaps(self, number, time):

@@ -6,6 +6,7 @@ stand on this line keep the edge sharp.
 
 import numpy as np
 
+from mpslab.later import scipy
 from mpslab.solids.surfaces import neighbours
 
 SHARP = np.cos(np.radians(35.0))  # of the angle between the normals
@@ -81,7 +82,8 @@ class Edges:
             step = np.linalg.norm(np.diff(line, axis=0), axis=1)
             pieces = np.split(line, np.flatnonzero(step > 0.5 * spacing) + 1)
             found += [_spread(piece, spacing) for piece in pieces if len(piece)]
-        return _apart(np.vstack(found), 0.5 * spacing)
+        found = np.vstack(found)
+        return found[not_double(found, 0.5 * spacing)]
 
     def _line(self, chain, depth, spacing):
         """Points of a chain at a depth, close to one another, from corner to corner."""
@@ -112,11 +114,10 @@ def _spread(line, spacing):
     return np.column_stack([np.interp(where, along, line[:, k]) for k in range(3)])
 
 
-def _apart(points, close):
-    """Points, the later of two that are closer than that left out."""
+def not_double(points, close):
+    """Mask of points (n, k) without the later one of two that are closer than that, (n,) bool."""
     keep = np.ones(len(points), bool)
-    for i in range(len(points)):
-        if keep[i]:
-            near = np.linalg.norm(points[i + 1 :] - points[i], axis=1) < close
-            keep[i + 1 :] &= ~near
-    return points[keep]
+    pairs = scipy.spatial.cKDTree(points).query_pairs(close, output_type="ndarray")
+    for i, j in pairs[np.lexsort(pairs.T[::-1])]:
+        keep[j] &= not keep[i]
+    return keep

@@ -1,11 +1,12 @@
 """Volume, centre and moments of inertia of shapes, by formula where there is one."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
 from mpslab.solids.outlines import Circle, Polygon
-from mpslab.solids.shapes import Prism, Sphere
+from mpslab.solids.shapes import Prism, Sphere, samples
 
 SAMPLES = {2: 400, 3: 100}  # along an axis, of a shape without a formula
 
@@ -28,6 +29,7 @@ class Bulk:
     inertia: np.ndarray
 
 
+@lru_cache(maxsize=8)
 def bulk(shape, dim):
     """The `Bulk` of a shape (`mpslab.solids.shapes`) in so many dimensions."""
     if isinstance(shape, Sphere):
@@ -38,8 +40,8 @@ def bulk(shape, dim):
 
 
 def _sphere(shape):
-    volume = 4.0 / 3.0 * np.pi * shape.radius**3
-    return Bulk(volume, shape.center, 0.4 * volume * shape.radius**2 * np.eye(3))
+    moment = 0.4 * shape.volume * shape.radius**2
+    return Bulk(shape.volume, shape.center, moment * np.eye(3))
 
 
 def _prism(shape, dim):
@@ -63,8 +65,8 @@ def _inertia(moments):
 def _plane(outline):
     """Area, centre (2,) and second moments (2, 2) about it of an outline."""
     if isinstance(outline, Circle):
-        area = np.pi * outline.radius**2
-        return area, outline.center, 0.25 * area * outline.radius**2 * np.eye(2)
+        second = 0.25 * outline.area * outline.radius**2
+        return outline.area, outline.center, second * np.eye(2)
     return _polygon(outline.corners)
 
 
@@ -85,11 +87,9 @@ def _polygon(corners):
 def _sampled(shape, dim):
     """By the places of a fine grid that are inside, which `shape.distance` tells."""
     axes = [0, 1, 2] if dim == 3 else [0, 2]
-    low, sides = np.zeros(3), np.zeros(3)
-    low[axes], sides[axes] = shape.low[axes], (shape.high - shape.low)[axes]
-    share = (np.arange(SAMPLES[dim]) + 0.5) / SAMPLES[dim]
-    grid = np.meshgrid(*(share if k in axes else np.zeros(1) for k in range(3)), indexing="ij")
-    places = low + sides * np.column_stack([one.ravel() for one in grid])
+    sides = np.zeros(3)
+    sides[axes] = (shape.high - shape.low)[axes]
+    places = samples(shape.low, shape.high, axes, SAMPLES[dim])
     places = places[shape.distance(places) < 0.0]
     cell = float(np.prod(sides[axes] / SAMPLES[dim]))
     center = places.mean(axis=0)

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from mpslab.later import scipy
-from mpslab.solids.edges import SHARP, Edges, normals_of
+from mpslab.solids.edges import SHARP, Edges, normals_of, not_double
 from mpslab.solids.shapes import turned
 from mpslab.solids.surfaces import igl, volume, winding
 
@@ -94,7 +94,7 @@ class Mesh:
         share = (np.arange(RAYS) + 0.5) / RAYS
         face = np.searchsorted(np.cumsum(area) / area.sum(), share).clip(max=len(area) - 1)
         start = _inner_points(self.vertices, self.faces, face)
-        inward = -normals_of(self.vertices, self.faces)[face]
+        inward = -self._normals[face]
         along = np.arange(0.5 * STEP, FARTHEST, STEP) * self.spacing
         places = (start[:, None] + along[:, None] * inward[:, None]).reshape(-1, 3)
         out = (winding(self.vertices, self.faces, places) < 0.5).reshape(RAYS, -1)
@@ -173,7 +173,7 @@ class Mesh:
             place[free] = self._onto(place[free], depth[free], 1)
         off = np.abs(-self.distance(place) - depth)
         keep = off < OFF * spacing
-        keep[keep] = _not_double(np.column_stack([place, layer * apart])[keep], LEAST * spacing)
+        keep[keep] = not_double(np.column_stack([place, layer * apart])[keep], LEAST * spacing)
         place, layer = place[keep], layer[keep]
         nearest = self._tree.squared_distance(self.vertices, self.faces, place)[2]
         out = nearest - place
@@ -242,12 +242,3 @@ def _without_nearest(points, others):
         there = near[keep[near]]
         keep[there[:1]] = False
     return points[keep]
-
-
-def _not_double(points, close):
-    """Mask of points without the later one of two that are closer than that."""
-    keep = np.ones(len(points), bool)
-    pairs = scipy.spatial.cKDTree(points).query_pairs(close, output_type="ndarray")
-    for i, j in pairs[np.lexsort(pairs.T[::-1])]:
-        keep[j] &= not keep[i]
-    return keep

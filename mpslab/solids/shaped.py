@@ -12,7 +12,7 @@ from mpslab.core.particles import FACE, FILLER
 from mpslab.solids import obstacles, surfaces
 from mpslab.solids.meshes import Mesh
 from mpslab.solids.outlines import Circle, Polygon
-from mpslab.solids.shapes import Box, Prism, Sphere, turned
+from mpslab.solids.shapes import Box, Prism, Sphere, samples, turned
 from mpslab.solids.solid import Solid
 
 CLEAR = 0.5  # spacings from the water, as it is laid, to a face at the least
@@ -186,8 +186,8 @@ def _made_rasters(solids, tank, particles):
 @lru_cache(maxsize=8)
 def _faces(shape, spacing):
     position, normal, layer = shape.layers(spacing, 1)
-    first = layer == 0
-    return position[first] + 0.5 * spacing * normal[first]
+    position, normal = position[layer == 0], normal[layer == 0]
+    return position - shape.distance(position)[:, np.newaxis] * normal
 
 
 def faces(case, number):
@@ -259,9 +259,7 @@ def _shares(case, shape, start, end, depths):
     if not np.all(sides > 0.0):
         return [0.0] * len(depths)
     number = SAMPLES[case.dim]
-    grid = np.meshgrid(*((np.arange(number) + 0.5) / number for _ in axes), indexing="ij")
-    places = np.zeros((number**case.dim, 3))
-    places[:, axes] = low[axes] + np.column_stack([one.ravel() for one in grid]) * sides
+    places = samples(low, high, axes, number)
     places = places[places[:, 2] > beds.elevation(case.tank.bed, places[:, 0])]
     distance, each = shape.distance(places), np.prod(sides) / number**case.dim
     return [float(np.count_nonzero(distance < -depth) * each) for depth in depths]

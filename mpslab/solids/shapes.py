@@ -23,6 +23,19 @@ PLANE = {"y": (0, 2), "z": (0, 1)}  # axes across the axis of a prism
 INDEX = {"y": 1, "z": 2}
 
 
+def samples(low, high, axes, number):
+    """Middles of number^k equal cells of a box between corners (3,) [m], (number^k, 3) [m].
+
+    axes : the k axes along which it reaches; along the others the places are at 0
+    """
+    share = (np.arange(number) + 0.5) / number
+    grid = np.meshgrid(*(share for _ in axes), indexing="ij")
+    places = np.zeros((number ** len(axes), 3))
+    cells = np.column_stack([one.ravel() for one in grid])
+    places[:, axes] = low[axes] + cells * (high - low)[axes]
+    return places
+
+
 def turned(angles):
     """Matrix (3, 3) that turns about x, then y, then z by angles [deg], each right-handed."""
     (a, b, c), (s, t, u) = np.cos(np.radians(angles)), np.sin(np.radians(angles))
