@@ -1,4 +1,4 @@
-"""What a wave loses along the tank."""
+"""What a wave loses along the tank, and the modes of a closed one."""
 
 import numpy as np
 
@@ -35,3 +35,11 @@ def travel(run, to=None):
     wet = middle < middle[np.argmax(depth <= 0.0)] if (depth <= 0.0).any() else depth > 0.0
     speed = [group_celerity(case.wavemaker.period, h, run.gravity) for h in depth[wet]]
     return float(np.sum(np.diff(x)[wet] / speed))
+
+
+def modes(run, number):
+    """Time [s], and amplitude of cos(n pi x / l) in the surface from all water [m], (n,) each."""
+    length = run.case.tank.length
+    rows = [(t, np.cos(number * np.pi * x[:, 0] / length).sum()) for t, x, _ in run.water()]
+    time, mode = np.array(rows).T
+    return time, 2.0 * run.spacing**2 / length * mode

@@ -6,6 +6,7 @@ from scipy.integrate import solve_ivp
 from mpslab.forcings.frame import motion_of
 from mpslab.theory.waves import standing_wave_frequency
 from validation.comparison import Comparison
+from validation.wave_analysis import modes
 
 FREE = {"mode-1": "period_1", "mode-1-fine": "period_1_fine", "mode-2": "period_2"}
 FORCED = {"sway": "sway", "roll-low": "roll_low", "roll-high": "roll_high"}
@@ -44,14 +45,6 @@ def _free(result, run, metric):
     title = f"Free mode {initial.mode}, {run.label}"
     figure = result.figure(title, "t / T", "mode / amplitude")
     figure.line("mpslab", time / natural, mode / initial.amplitude)
-
-
-def modes(run, number):
-    """Time [s], and amplitude of cos(n pi x / l) in the surface from all water [m], (n,) each."""
-    length = run.case.tank.length
-    rows = [(t, np.cos(number * np.pi * x[:, 0] / length).sum()) for t, x, _ in run.water()]
-    time, mode = np.array(rows).T
-    return time, 2.0 * run.spacing**2 / length * mode
 
 
 def period(time, mode):

@@ -5,6 +5,7 @@ from scipy.optimize import least_squares, newton
 
 from mpslab.theory.waves import standing_wave_frequency
 from validation.comparison import Comparison
+from validation.wave_analysis import modes
 
 
 def compare(runs):
@@ -15,7 +16,7 @@ def compare(runs):
     for name, run in runs.items():
         tank, amplitude = run.case.tank, run.case.initial.amplitude
         exact = growth(tank.length, run.depth, run.gravity, run.case.fluid.viscosity)
-        time, mode = first_mode(run)
+        time, mode = modes(run, 1)
         decay, frequency = fitted(time, mode / amplitude, exact)
         rows[name] = [decay, -exact.real, frequency, exact.imag]
         figure.line(run.label, time, mode / amplitude)
@@ -41,14 +42,6 @@ def growth(length, depth, gravity, viscosity):
         return n * (n + 2 * viscosity * k * k) - layer + inviscid**2 * (1 - 2 * k * k / both)
 
     return newton(equation, 1j * inviscid - 2.0 * viscosity * k * k, tol=1e-12)
-
-
-def first_mode(run):
-    """Time [s], and amplitude of cos(pi x/l) in the surface from all water [m], (n,) each."""
-    length = run.case.tank.length
-    rows = [(t, np.cos(np.pi * x[:, 0] / length).sum()) for t, x, _ in run.water()]
-    time, mode = np.array(rows).T
-    return time, 2.0 * run.spacing**2 / length * mode
 
 
 def fitted(time, mode, exact):
