@@ -80,6 +80,7 @@ class Neighbourhood:
         self.other, self.solid = neighbors.indices, np.empty(n, np.int32)
         self.position = padded(particles.position)
         self.first, self.second = np.empty((n, 4)), np.empty((n, 3, 4))
+        self.smooth = smooth
         self.straight = np.empty_like(self.offset) if smooth else self.offset
         measure.measure(
             self.position, particles.role, self.row, self.other, self.stencil, smooth, self.solid,
@@ -188,7 +189,7 @@ class Neighbourhood:
         """
         self._lean = np.empty((len(self.particles), 4))
         divergence.adjoint(self.row, self.solid, self.other, self.offset,
-                           np.ascontiguousarray(velocity), self.correction, self._lean)  # fmt: skip
+                           np.ascontiguousarray(velocity), self.smooth, self.correction, self._lean)  # fmt: skip
         return self._lean[:, 3].copy()
 
     def close(self, distance):

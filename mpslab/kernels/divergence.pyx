@@ -62,16 +62,18 @@ def corrected_divergence(const int[::1] row, const int[::1] other, const float[:
 
 
 def adjoint(const int[::1] row, const int[::1] solid, const int[::1] other,
-            const float[:, ::1] offset, const double[:, ::1] velocity,
+            const float[:, ::1] offset, const double[:, ::1] velocity, bint mirrored,
             double[:, :, ::1] c, double[:, ::1] out):
     """S_i = sum_j D_j r_ij w/r^2 and sum_j u_ij . D_j r_ij w/r^2: (n, 4) out [1/m, 1/(m s)].
 
     D_j is C_j of a water particle; of a solid it is C_i.  The sum over water is one product: of
     the three columns (C_j, C_j u_j) with r_ij w/r^2.
 
+    mirrored : whether solids count as the mirror image of i, with 2 u_ij: their velocity is that
+        of the wall's face, halfway
     c : (n, 3, 4) correction matrices; the fourth numbers become C_j u_j
     """
-    cdef double u, v, w, div
+    cdef double u, v, w, div, times_ = 2.0 if mirrored else 1.0
     cdef four total, g
     cdef Py_ssize_t i, k, j, a
     with nogil:
@@ -88,8 +90,8 @@ def adjoint(const int[::1] row, const int[::1] solid, const int[::1] other,
                 j = other[k]
                 g = turned(&c[i, 0, 0], pull(&offset[k, 0]))
                 total = plus(total, 1.0, g)
-                div += (velocity[j, 0] * lane(g, 0) + velocity[j, 1] * lane(g, 1)
-                        + velocity[j, 2] * lane(g, 2))
+                for a in range(3):
+                    div += (times_ * velocity[j, a] - (times_ - 1.0) * velocity[i, a]) * lane(g, a)
             for a in range(3):
                 out[i, a] = lane(total, a)
                 div -= velocity[i, a] * lane(total, a)

@@ -1,15 +1,13 @@
 """The geometry of all pairs of a neighbour list, kept for whatever a step sums over them."""
-from libc.math cimport sqrt, sqrtf
+from libc.math cimport fabs, sqrt, sqrtf
 
 from mpslab.kernels.lanes cimport (
     ended, four, lane, load, minus, nearest, nothing, plus, store, store_rounded, times, widened,
 )
 from mpslab.kernels.pair cimport FLUID, LANES
 
-# Spacings along the normal to the particles of a wall: at the least so many, or it is no flat one.
-cdef double LEAST = 0.25
-# Share of a push along the normal that the hollows of a flat wall make along it, at the most.
-cdef double WASHBOARD = 0.07
+cdef double[3] NOWHERE
+NOWHERE[0] = NOWHERE[1] = NOWHERE[2] = 0.0
 # Rows of so many pairs are taken through all three parts at a time, and stay in the cache.
 cdef enum:
     PAIRS = 1024
@@ -23,7 +21,7 @@ def measure(const double[:, ::1] position, const signed char[::1] role, const in
 
     position : (n, 4) [m], the fourth number 0
     row, other : of the neighbour list; in each row of `other` water is put before solids
-    smooth : whether r_ij from water to solids is only its part along their normal, see `flatten`
+    smooth : whether r_ij from water to solids is only its part along their normal, see `slide`
     straight : (m + LANES, 4) out where smooth, r_ij as it is from water to solids
     solid : (n,) out, first solid neighbour in each row of `other`
     behind : scratch, as long as the longest row
@@ -33,7 +31,8 @@ def measure(const double[:, ::1] position, const signed char[::1] role, const in
     first : (n, 4) out, sum_j w r_ij [m] and the number density sum_j w
     second : (n, 3, 4) out, for each axis a: sum_j (r_ij)_a w/r^2 (r_ij, 1)
     """
-    cdef double width = stencil.width, least = LEAST * stencil.spacing
+    cdef double width = stencil.width, spacing = stencil.spacing
+    cdef int dim = stencil.dim
     cdef float radius = stencil.radius, floor = stencil.floor
     cdef Py_ssize_t i, begin = 0, end = 0, n = role.shape[0]
     with nogil:
@@ -46,7 +45,7 @@ def measure(const double[:, ::1] position, const signed char[::1] role, const in
             invert(row[begin], row[end], floor, inverse)
             for i in range(begin, end):
                 if smooth and role[i] == FLUID and solid[i] < row[i + 1]:
-                    flatten(solid[i], row[i + 1], radius, least, inverse, offset, straight)
+                    slide(solid[i], row[i + 1], radius, spacing, dim, inverse, offset, straight)
                 add_up(i, row, radius, offset, inverse, first, second)
             begin = end
 
@@ -114,46 +113,85 @@ cdef inline void invert(Py_ssize_t begin, Py_ssize_t end, float floor,
             value[lane_] = one / sqrtf(square)
 
 
-cdef inline void flatten(Py_ssize_t begin, Py_ssize_t end, float radius, double least,
-                         const float[::1] inverse, float[:, ::1] offset,
-                         float[:, ::1] straight) noexcept nogil:
-    """n (n . r_ij) in place of r_ij for the solids of a row, n their normal; r_ij goes to straight.
+cdef inline void slide(Py_ssize_t begin, Py_ssize_t end, float radius, double spacing, int dim,
+                       const float[::1] inverse, float[:, ::1] offset,
+                       float[:, ::1] straight) noexcept nogil:
+    """Slide the solids of a row until sum_j w r_ij/r^2 points along their normal.
 
-    A wall of particles is a washboard: along it their forces hold the water in its hollows.  The
-    normal is that of sum_j (1 - r^2/r_e^2)^3 r_ij, which hardly feels the single particles.  In
-    corners and gaps and beside edges there is none, and r_ij stays: some solids are less than
-    `least` away along n, or the sum of w r_ij/r^2 points elsewhere by more than hollows make it.
+    A wall of particles is a washboard: along it their forces hold the water in its hollows.  Its
+    normal is that of the same sum in the mean over walls that lie a quarter of a spacing aside,
+    where one has particles the other has hollows.  r_ij as it was goes to `straight`.
     """
     cdef Py_ssize_t k
-    cdef double q, c, length, x = 0, y = 0, z = 0, sx = 0, sy = 0, sz = 0
+    cdef int a, b
+    cdef double c, weight = 0, length, quarter = 0.25 * spacing
+    cdef double[3] push, normal, first, second, smooth, aside
+    push[0] = push[1] = push[2] = smooth[0] = smooth[1] = smooth[2] = 0
     for k in range(begin, end):
-        straight[k, 0], straight[k, 1], straight[k, 2] = offset[k, 0], offset[k, 1], offset[k, 2]
-        q = 1.0 / (inverse[k] * radius)
-        if q < 1.0:
-            c = (1.0 / q - 1.0) * inverse[k] * inverse[k]
-            sx += c * offset[k, 0]
-            sy += c * offset[k, 1]
-            sz += c * offset[k, 2]
-            c = (1.0 - q * q) * (1.0 - q * q) * (1.0 - q * q)
-            x += c * offset[k, 0]
-            y += c * offset[k, 1]
-            z += c * offset[k, 2]
-    length = sqrt(x * x + y * y + z * z)
+        for a in range(3):
+            straight[k, a] = offset[k, a]
+        c = pulled(&offset[k, 0], NOWHERE, radius, push)
+        weight += c
+    length = sqrt(dot(push, push))
     if length == 0.0:
         return
-    x, y, z = x / length, y / length, z / length
-    length = x * sx + y * sy + z * sz
-    if sx * sx + sy * sy + sz * sz > (1.0 + WASHBOARD * WASHBOARD) * length * length:
+    for a in range(3):
+        normal[a] = push[a] / length
+    along(normal, first, second)
+    for a in range(-1 if dim == 3 else 1, 2, 2):
+        for b in range(-1, 2, 2):
+            for k in range(3):
+                aside[k] = quarter * (b * first[k] + (a * second[k] if dim == 3 else 0.0))
+            for k in range(begin, end):
+                pulled(&offset[k, 0], aside, radius, smooth)
+    length = dot(smooth, smooth)
+    if length == 0.0:
         return
+    c = dot(smooth, push) / length
+    for a in range(3):
+        aside[a] = (c * smooth[a] - push[a]) / weight
     for k in range(begin, end):
-        if (inverse[k] * radius > 1.0
-                and x * offset[k, 0] + y * offset[k, 1] + z * offset[k, 2] < least):
-            return
-    for k in range(begin, end):
-        length = x * offset[k, 0] + y * offset[k, 1] + z * offset[k, 2]
-        offset[k, 0] = <float>(length * x)
-        offset[k, 1] = <float>(length * y)
-        offset[k, 2] = <float>(length * z)
+        for a in range(3):
+            offset[k, a] = <float>(offset[k, a] + aside[a])
+
+
+cdef inline double pulled(const float* offset, const double* aside, double radius,
+                          double* total) noexcept nogil:
+    """Add w r/r^2 of a pair that lies somewhat aside to a sum; returns w/r^2."""
+    cdef double x = offset[0] + aside[0], y = offset[1] + aside[1], z = offset[2] + aside[2]
+    cdef double square = x * x + y * y + z * z
+    cdef double g = (radius / sqrt(square) - 1.0) / square
+    if not g > 0.0:
+        return 0.0
+    total[0] += g * x
+    total[1] += g * y
+    total[2] += g * z
+    return g
+
+
+cdef inline double dot(const double* a, const double* b) noexcept nogil:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+cdef inline void along(const double* normal, double* first, double* second) noexcept nogil:
+    """Two unit vectors across a normal and each other; in x-z the first has no y.
+
+    The second is the part across the normal of the axis that is least along it, so that on walls
+    that stand along an axis both are along the rows of particles.
+    """
+    cdef int a, least = 1
+    cdef double length
+    for a in range(0, 3, 2):
+        if fabs(normal[a]) < fabs(normal[least]):
+            least = a
+    for a in range(3):
+        second[a] = (a == least) - normal[least] * normal[a]
+    length = sqrt(dot(second, second))
+    for a in range(3):
+        second[a] /= length
+    for a in range(3):
+        first[a] = (normal[(a + 1) % 3] * second[(a + 2) % 3]
+                    - normal[(a + 2) % 3] * second[(a + 1) % 3])
 
 
 cdef inline void add_up(Py_ssize_t i, const int[::1] row, float radius, float[:, ::1] offset,
