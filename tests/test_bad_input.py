@@ -159,7 +159,6 @@ CLASHES = [
     ({"scheme.gradient_radius": 1.4}, "scheme.gradient_radius = 1.4", "0, or >= 1.5 spacings"),
     (SOLVED | {"scheme.gradient_radius": 2.4}, "scheme.gradient_radius = 2.4", "<= 2.3 spacings"),
     (SOLVED | {"scheme.surface": "graded"}, "scheme.surface = 'graded'", "walls = 'solved'"),
-    (SOLVED | {"scheme.smooth_walls": True}, "scheme.smooth_walls = true", "walls = 'solved'"),
     (COPIED | {"scheme.surface": "graded"}, "scheme.surface = 'graded'", "walls = 'copied'"),
     ({"wavemaker.type": "file"}, "wavemaker.file = ''", "a CSV file that exists"),
     ({"wavemaker.type": "file", "wavemaker.file": "/no.csv"}, "wavemaker.file = '/no.csv'", ""),

@@ -120,16 +120,49 @@ def test_a_smooth_bed_pushes_nowhere_but_up(dim):
     assert aside[True] < 0.3 * aside[False]
 
 
-def test_solids_around_a_corner_are_not_smoothed():
-    place = lattice(2, 4)
-    solid = (place[:, 0] < 0.0) | (place[:, 2] < 0.0)
-    position = np.vstack([[[0.1, 0.0, 0.2]], place[solid]])
-    particles = particles_at(position, np.where(np.arange(len(position)), FACE, FLUID))
-    found = neighbors_of(position, 2.6)
-    near = Neighbourhood(make_stencil(2, 1.0, 2.1))
-    raw = near.measure(particles, found).offset.copy()
-    smooth = near.measure(particles, neighbors_of(position, 2.6), smooth=True).offset
-    np.testing.assert_array_equal(smooth[: near.row[1]], raw[: near.row[1]])
+def box_in_water(dim):
+    """Water on the lattice around a box of 6 x 4 spacings (6 x 6 x 4), and which of it is near."""
+    place = lattice(dim, 8)
+    inside = np.all(np.abs(place - 0.5) < [3.0, 3.0 * (dim - 2) + 1.0, 2.0], axis=1)
+    particles = particles_at(place, np.where(inside, FACE, FLUID))
+    return particles, np.flatnonzero(np.all(np.abs(place) < 6.0, axis=1) & ~inside)
+
+
+@pytest.mark.parametrize("dim", DIMS)
+def test_a_smooth_box_is_lifted_by_the_water_it_displaces(dim):
+    """On the lattice, where particles as they are give the lift of Archimedes."""
+    particles, water = box_in_water(dim)
+    p, lift = -particles.position[:, 2], {}
+    for smooth in (False, True):
+        near = Neighbourhood(make_stencil(dim, 1.0, 2.1))
+        near.measure(particles, neighbors_of(particles.position, 2.1), smooth=smooth)
+        force = 0.0
+        for i in water:
+            pairs = slice(near.solid[i], near.row[i + 1])
+            r, g = near.offset[pairs, :3], near.offset[pairs, 3]
+            push = (p[i] + p[near.other[pairs]]) * g @ r
+            force -= near.correction[i, 2, :3] @ push * dim / near.stencil.n0
+        lift[smooth] = -force / np.count_nonzero(~particles.fluid)
+    assert lift[False] == pytest.approx(1.0, abs=1e-4)
+    assert lift[True] == pytest.approx(1.0, abs=0.01)
+
+
+@pytest.mark.parametrize("dim", DIMS)
+def test_water_that_flows_along_a_wall_has_no_divergence_beside_it(dim):
+    """u = (x, 0, -z) above a still wall at z = 0."""
+    place = lattice(dim, 8) + [0.0, 0.0, 0.5]
+    particles = particles_at(place, np.where(place[:, 2] < 0.0, FACE, FLUID))
+    particles.velocity[:] = place * [1.0, 0.0, -1.0] * particles.fluid[:, np.newaxis]
+    inside = np.all(np.abs(place - [0.0, 0.0, 3.0]) < [4.0, 4.0 if dim == 3 else 1.0, 3.0], axis=1)
+    row = np.flatnonzero(inside & (np.abs(place[:, 2] - 0.5) < 0.1))
+    rate = {}
+    for smooth in (False, True):
+        near = Neighbourhood(make_stencil(dim, 1.0, 2.1))
+        near.measure(particles, neighbors_of(place, 2.1), smooth=smooth)
+        found = dim / near.stencil.n0 * near.adjoint_divergence(particles.velocity)
+        rate[smooth] = np.abs(found[row]).max()
+    assert rate[False] > 0.09
+    assert rate[True] < 1e-6
 
 
 @pytest.mark.parametrize("dim", DIMS)
@@ -142,12 +175,15 @@ def test_moments_are_the_sums_of_their_formulas(dim):
     assert_close(near.correction[:, :, :3], pairs.c)
 
 
+@pytest.mark.parametrize("smooth", [False, True])
 @pytest.mark.parametrize("dim", DIMS)
-def test_adjoint_divergence_and_lean_are_the_sums_of_their_formulas(dim):
+def test_adjoint_divergence_and_lean_are_the_sums_of_their_formulas(dim, smooth):
     near, pairs = setting(dim)
+    near.smooth = smooth
     u = near.particles.velocity
     turned = np.einsum("ij,ijab,ijb->ija", pairs.g, pairs.d, pairs.r)
-    divergence = np.einsum("ija,ija->i", u[None] - u[:, None], turned)
+    counted = np.where(pairs.water, 1.0, near.stencil.mirror if smooth else 1.0)
+    divergence = np.einsum("j,ija,ija->i", counted, u[None] - u[:, None], turned)
     assert_close(near.lean[:, :3], turned.sum(axis=1))  # on its own, before it comes for nothing
     assert_close(near.adjoint_divergence(u), divergence)
     assert_close(near.lean[:, :3], turned.sum(axis=1))

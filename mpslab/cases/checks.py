@@ -83,13 +83,6 @@ def _check_models(case):
         f"marked where scheme.walls = {scheme.walls!r}, for dry walls need p = 0 at marked "
         "particles",
     )
-    require(
-        not scheme.smooth_walls or scheme.walls == "extrapolated",
-        "scheme.smooth_walls",
-        scheme.smooth_walls,
-        f"false where scheme.walls = {scheme.walls!r}: walls that have rows of their own are not "
-        "smoothed",
-    )
     _check_radii(scheme)
 
 

@@ -188,8 +188,10 @@ class Neighbourhood:
         Gives `lean` as well, from the same products.
         """
         self._lean = np.empty((len(self.particles), 4))
-        divergence.adjoint(self.row, self.solid, self.other, self.offset,
-                           np.ascontiguousarray(velocity), self.smooth, self.correction, self._lean)  # fmt: skip
+        divergence.adjoint(
+            self.row, self.solid, self.other, self.offset, np.ascontiguousarray(velocity),
+            self.stencil.mirror if self.smooth else 1.0, self.correction, self._lean,
+        )  # fmt: skip
         return self._lean[:, 3].copy()
 
     def close(self, distance):

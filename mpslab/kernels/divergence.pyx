@@ -62,18 +62,17 @@ def corrected_divergence(const int[::1] row, const int[::1] other, const float[:
 
 
 def adjoint(const int[::1] row, const int[::1] solid, const int[::1] other,
-            const float[:, ::1] offset, const double[:, ::1] velocity, bint mirrored,
+            const float[:, ::1] offset, const double[:, ::1] velocity, double times_,
             double[:, :, ::1] c, double[:, ::1] out):
     """S_i = sum_j D_j r_ij w/r^2 and sum_j u_ij . D_j r_ij w/r^2: (n, 4) out [1/m, 1/(m s)].
 
     D_j is C_j of a water particle; of a solid it is C_i.  The sum over water is one product: of
     the three columns (C_j, C_j u_j) with r_ij w/r^2.
 
-    mirrored : whether solids count as the mirror image of i, with 2 u_ij: their velocity is that
-        of the wall's face, halfway
+    times_ : how often u_ij counts where j is a solid, whose velocity is that of its face
     c : (n, 3, 4) correction matrices; the fourth numbers become C_j u_j
     """
-    cdef double u, v, w, div, times_ = 2.0 if mirrored else 1.0
+    cdef double u, v, w, div
     cdef four total, g
     cdef Py_ssize_t i, k, j, a
     with nogil:
