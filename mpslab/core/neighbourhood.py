@@ -38,8 +38,8 @@ class Neighbourhood:
     other : (m,) int32
         The neighbour.
     offset : (m + LANES, 4) float32
-        r_ij [m] and w/r^2 [1/m2]; what is behind the m pairs means nothing. Of water to smooth
-        solids only the part of r_ij along their normal.
+        r_ij [m] and w/r^2 [1/m2]; what is behind the m pairs means nothing. Smooth
+        solids have slid along their face, for water.
     straight : (m + LANES, 4) float32
         r_ij [m] as it is, of pairs of water with solids.
     inverse : (m + LANES,) float32
@@ -70,7 +70,8 @@ class Neighbourhood:
         loaded : (n,) bool, optional
             Those that act with a pressure, unless they are water and the faces of solids.
         smooth : bool
-            Whether solids are smooth: water feels nothing of them along their face.
+            Whether solids are smooth for water: it feels nothing of their particles along the
+            face, and flow along them has no divergence (`Stencil.mirror`).
         """
         n, pairs = len(particles), len(neighbors.indices)
         self.particles, self.row = particles, neighbors.indptr

@@ -1,5 +1,5 @@
 """The geometry of all pairs of a neighbour list, kept for whatever a step sums over them."""
-from libc.math cimport fabs, sqrt, sqrtf
+from libc.math cimport fabs, fmax, sqrt, sqrtf
 
 from mpslab.kernels.lanes cimport (
     ended, four, lane, load, minus, nearest, nothing, plus, store, store_rounded, times, widened,
@@ -8,6 +8,7 @@ from mpslab.kernels.pair cimport FLUID, LANES
 
 cdef double[3] NOWHERE
 NOWHERE[0] = NOWHERE[1] = NOWHERE[2] = 0.0
+cdef double NEAREST = 1e-6  # square of the least distance from a solid, in radii
 # Rows of so many pairs are taken through all three parts at a time, and stay in the cache.
 cdef enum:
     PAIRS = 1024
@@ -21,7 +22,7 @@ def measure(const double[:, ::1] position, const signed char[::1] role, const in
 
     position : (n, 4) [m], the fourth number 0
     row, other : of the neighbour list; in each row of `other` water is put before solids
-    smooth : whether r_ij from water to solids is only its part along their normal, see `slide`
+    smooth : whether water sees solids slid along their face, see `slide`
     straight : (m + LANES, 4) out where smooth, r_ij as it is from water to solids
     solid : (n,) out, first solid neighbour in each row of `other`
     behind : scratch, as long as the longest row
@@ -45,7 +46,7 @@ def measure(const double[:, ::1] position, const signed char[::1] role, const in
             invert(row[begin], row[end], floor, inverse)
             for i in range(begin, end):
                 if smooth and role[i] == FLUID and solid[i] < row[i + 1]:
-                    slide(solid[i], row[i + 1], radius, spacing, dim, inverse, offset, straight)
+                    slide(solid[i], row[i + 1], radius, spacing, dim, offset, straight)
                 add_up(i, row, radius, offset, inverse, first, second)
             begin = end
 
@@ -113,9 +114,8 @@ cdef inline void invert(Py_ssize_t begin, Py_ssize_t end, float floor,
             value[lane_] = one / sqrtf(square)
 
 
-cdef inline void slide(Py_ssize_t begin, Py_ssize_t end, float radius, double spacing, int dim,
-                       const float[::1] inverse, float[:, ::1] offset,
-                       float[:, ::1] straight) noexcept nogil:
+cdef inline void slide(Py_ssize_t begin, Py_ssize_t end, double radius, double spacing, int dim,
+                       float[:, ::1] offset, float[:, ::1] straight) noexcept nogil:
     """Slide the solids of a row until sum_j w r_ij/r^2 points along their normal.
 
     A wall of particles is a washboard: along it their forces hold the water in its hollows.  Its
@@ -130,8 +130,7 @@ cdef inline void slide(Py_ssize_t begin, Py_ssize_t end, float radius, double sp
     for k in range(begin, end):
         for a in range(3):
             straight[k, a] = offset[k, a]
-        c = pulled(&offset[k, 0], NOWHERE, radius, push)
-        weight += c
+        weight += pulled(&offset[k, 0], NOWHERE, radius, push)
     length = sqrt(dot(push, push))
     if length == 0.0:
         return
@@ -159,7 +158,7 @@ cdef inline double pulled(const float* offset, const double* aside, double radiu
                           double* total) noexcept nogil:
     """Add w r/r^2 of a pair that lies somewhat aside to a sum; returns w/r^2."""
     cdef double x = offset[0] + aside[0], y = offset[1] + aside[1], z = offset[2] + aside[2]
-    cdef double square = x * x + y * y + z * z
+    cdef double square = fmax(x * x + y * y + z * z, NEAREST * radius * radius)
     cdef double g = (radius / sqrt(square) - 1.0) / square
     if not g > 0.0:
         return 0.0
