@@ -70,8 +70,7 @@ class Neighbourhood:
         loaded : (n,) bool, optional
             Those that act with a pressure, unless they are water and the faces of solids.
         smooth : bool
-            Whether solids are smooth for water: it feels nothing of their particles along the
-            face, and flow along them has no divergence (`Stencil.mirror`).
+            Whether solids are smooth: water feels nothing of their particles along the face.
         """
         n, pairs = len(particles), len(neighbors.indices)
         self.particles, self.row = particles, neighbors.indptr
@@ -189,10 +188,8 @@ class Neighbourhood:
         Gives `lean` as well, from the same products.
         """
         self._lean = np.empty((len(self.particles), 4))
-        divergence.adjoint(
-            self.row, self.solid, self.other, self.offset, np.ascontiguousarray(velocity),
-            self.stencil.mirror if self.smooth else 1.0, self.correction, self._lean,
-        )  # fmt: skip
+        divergence.adjoint(self.row, self.solid, self.other, self.offset,
+                           np.ascontiguousarray(velocity), self.correction, self._lean)  # fmt: skip
         return self._lean[:, 3].copy()
 
     def close(self, distance):

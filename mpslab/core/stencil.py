@@ -55,10 +55,6 @@ class Stencil:
     lopsided : float [m]
         |sum w r_ij|/n of the second layer below a flat surface: 0.01 spacings at a radius of 2.1,
         0.2 at 3.1, 0.35 at 4.1.
-    mirror : float [-]
-        How often the velocity of solids counts in a divergence, so that a flow along a flat wall,
-        u = (x, 0, -z) above z = 0, has none in the first row on the lattice: 1.43 at a radius of
-        2.1 in 2-D, 1.38 in 3-D.
     """
 
     dim: int
@@ -70,7 +66,6 @@ class Stencil:
     first: float
     restoring: float
     lopsided: float
-    mirror: float
 
     @property
     def relaxed(self):
@@ -122,17 +117,4 @@ def make_stencil(dim, spacing, radius, width=0.0):
         first=(w * r).sum() * spacing,
         restoring=restoring,
         lopsided=lopsided,
-        mirror=_mirror(offsets, w / r**2),
     )
-
-
-def _mirror(offsets, g):
-    """The factor of `Stencil.mirror`, from a lattice and w/r^2 there.
-
-    Water to the sides and above gives the divergence sum g x^2 - sum g z^2; a still wall below,
-    half a spacing away, takes half a spacing times sum g z.
-    """
-    x, z = offsets[:, 0], offsets[:, 2]
-    above = z > 0.0
-    excess = g[z >= 0.0] @ x[z >= 0.0] ** 2 - g[above] @ z[above] ** 2
-    return excess / (0.5 * (g[above] @ z[above]))

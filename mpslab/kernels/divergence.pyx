@@ -62,14 +62,13 @@ def corrected_divergence(const int[::1] row, const int[::1] other, const float[:
 
 
 def adjoint(const int[::1] row, const int[::1] solid, const int[::1] other,
-            const float[:, ::1] offset, const double[:, ::1] velocity, double times_,
+            const float[:, ::1] offset, const double[:, ::1] velocity,
             double[:, :, ::1] c, double[:, ::1] out):
     """S_i = sum_j D_j r_ij w/r^2 and sum_j u_ij . D_j r_ij w/r^2: (n, 4) out [1/m, 1/(m s)].
 
     D_j is C_j of a water particle; of a solid it is C_i.  The sum over water is one product: of
     the three columns (C_j, C_j u_j) with r_ij w/r^2.
 
-    times_ : how often u_ij counts where j is a solid, whose velocity is that of its face
     c : (n, 3, 4) correction matrices; the fourth numbers become C_j u_j
     """
     cdef double u, v, w, div
@@ -89,8 +88,8 @@ def adjoint(const int[::1] row, const int[::1] solid, const int[::1] other,
                 j = other[k]
                 g = turned(&c[i, 0, 0], pull(&offset[k, 0]))
                 total = plus(total, 1.0, g)
-                for a in range(3):
-                    div += (times_ * velocity[j, a] - (times_ - 1.0) * velocity[i, a]) * lane(g, a)
+                div += (velocity[j, 0] * lane(g, 0) + velocity[j, 1] * lane(g, 1)
+                        + velocity[j, 2] * lane(g, 2))
             for a in range(3):
                 out[i, a] = lane(total, a)
                 div -= velocity[i, a] * lane(total, a)

@@ -1,14 +1,12 @@
 """The geometry of all pairs of a neighbour list, kept for whatever a step sums over them."""
-from libc.math cimport fabs, fmax, sqrt, sqrtf
+from libc.math cimport sqrtf
 
 from mpslab.kernels.lanes cimport (
     ended, four, lane, load, minus, nearest, nothing, plus, store, store_rounded, times, widened,
 )
 from mpslab.kernels.pair cimport FLUID, LANES
+from mpslab.kernels.smooth cimport dot, places, pulled, turn
 
-cdef double[3] NOWHERE
-NOWHERE[0] = NOWHERE[1] = NOWHERE[2] = 0.0
-cdef double NEAREST = 1e-6  # square of the least distance from a solid, in radii
 # Rows of so many pairs are taken through all three parts at a time, and stay in the cache.
 cdef enum:
     PAIRS = 1024
@@ -118,79 +116,31 @@ cdef inline void slide(Py_ssize_t begin, Py_ssize_t end, double radius, double s
                        float[:, ::1] offset, float[:, ::1] straight) noexcept nogil:
     """Slide the solids of a row until sum_j w r_ij/r^2 points along their normal.
 
-    A wall of particles is a washboard: along it their forces hold the water in its hollows.  Its
-    normal is that of the same sum in the mean over walls that lie a quarter of a spacing aside,
-    where one has particles the other has hollows.  r_ij as it was goes to `straight`.
+    See mpslab.kernels.smooth; r_ij as it was goes to `straight`.
     """
     cdef Py_ssize_t k
-    cdef int a, b
-    cdef double c, weight = 0, length, quarter = 0.25 * spacing
-    cdef double[3] push, normal, first, second, smooth, aside
-    push[0] = push[1] = push[2] = smooth[0] = smooth[1] = smooth[2] = 0
+    cdef int a, n, count
+    cdef double weight = 0
+    cdef double[3] nowhere, push, smooth, slid
+    cdef double[12] aside
+    for a in range(3):
+        nowhere[a] = push[a] = smooth[a] = 0
     for k in range(begin, end):
         for a in range(3):
             straight[k, a] = offset[k, a]
-        weight += pulled(&offset[k, 0], NOWHERE, radius, push)
-    length = sqrt(dot(push, push))
-    if length == 0.0:
+        weight += pulled(offset[k, 0], offset[k, 1], offset[k, 2], nowhere, radius, push)
+    if weight == 0.0 or dot(push, push) == 0.0:
         return
+    count = places(push, 0.25 * spacing, dim, aside)
+    for n in range(count):
+        for k in range(begin, end):
+            pulled(offset[k, 0], offset[k, 1], offset[k, 2], aside + 3 * n, radius, smooth)
     for a in range(3):
-        normal[a] = push[a] / length
-    along(normal, first, second)
-    for a in range(-1 if dim == 3 else 1, 2, 2):
-        for b in range(-1, 2, 2):
-            for k in range(3):
-                aside[k] = quarter * (b * first[k] + (a * second[k] if dim == 3 else 0.0))
-            for k in range(begin, end):
-                pulled(&offset[k, 0], aside, radius, smooth)
-    length = dot(smooth, smooth)
-    if length == 0.0:
-        return
-    c = dot(smooth, push) / length
-    for a in range(3):
-        aside[a] = (c * smooth[a] - push[a]) / weight
+        slid[a] = push[a]
+    turn(smooth, slid)
     for k in range(begin, end):
         for a in range(3):
-            offset[k, a] = <float>(offset[k, a] + aside[a])
-
-
-cdef inline double pulled(const float* offset, const double* aside, double radius,
-                          double* total) noexcept nogil:
-    """Add w r/r^2 of a pair that lies somewhat aside to a sum; returns w/r^2."""
-    cdef double x = offset[0] + aside[0], y = offset[1] + aside[1], z = offset[2] + aside[2]
-    cdef double square = fmax(x * x + y * y + z * z, NEAREST * radius * radius)
-    cdef double g = (radius / sqrt(square) - 1.0) / square
-    if not g > 0.0:
-        return 0.0
-    total[0] += g * x
-    total[1] += g * y
-    total[2] += g * z
-    return g
-
-
-cdef inline double dot(const double* a, const double* b) noexcept nogil:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-cdef inline void along(const double* normal, double* first, double* second) noexcept nogil:
-    """Two unit vectors across a normal and each other; in x-z the first has no y.
-
-    The second is the part across the normal of the axis that is least along it, so that on walls
-    that stand along an axis both are along the rows of particles.
-    """
-    cdef int a, least = 1
-    cdef double length
-    for a in range(0, 3, 2):
-        if fabs(normal[a]) < fabs(normal[least]):
-            least = a
-    for a in range(3):
-        second[a] = (a == least) - normal[least] * normal[a]
-    length = sqrt(dot(second, second))
-    for a in range(3):
-        second[a] /= length
-    for a in range(3):
-        first[a] = (normal[(a + 1) % 3] * second[(a + 2) % 3]
-                    - normal[(a + 2) % 3] * second[(a + 1) % 3])
+            offset[k, a] = <float>(offset[k, a] + (slid[a] - push[a]) / weight)
 
 
 cdef inline void add_up(Py_ssize_t i, const int[::1] row, float radius, float[:, ::1] offset,

@@ -3,6 +3,7 @@ from libc.math cimport sqrt
 
 from mpslab.kernels.lanes cimport four, lane, load, minus, nearest, nothing, plus, times
 from mpslab.kernels.pair cimport FLUID, LANES, distance, has_pressure, plus_turned, weight, wrap
+from mpslab.kernels.smooth cimport dot, places, pulled, turn
 
 # Neighbours of a particle whose distances are taken together; a multiple of LANES.
 cdef enum:
@@ -10,18 +11,20 @@ cdef enum:
 
 
 def shift(const double[:, ::1] position, const int[::1] row, const int[::1] solid,
-          const int[::1] other, stencil, const double[:, :, ::1] c, const unsigned char[::1] moves,
-          double factor, double longest, double[:, ::1] out):
+          const int[::1] other, stencil, bint smooth, const double[:, :, ::1] c,
+          const unsigned char[::1] moves, double factor, double longest, double[:, ::1] out):
     """dr_i = -factor sum_j (C_i + D_j)/2 r_ij w/r^2 of the particles that may move [m].
 
-    D_j is C_j if j is water and C_i if it is a solid; no move is longer than `longest` [m].
+    D_j is C_j if j is water and C_i if it is a solid; no move is longer than `longest` [m].  Solids
+    that are `smooth` push along their normal alone, see mpslab.kernels.smooth.
 
     position : (n, 4) [m], where the particles are now, the fourth number 0
     row, solid, other : pairs, see mpslab.kernels.measure
     c : (n, 3, 4), see mpslab.kernels.moments;  factor : [m2]
     """
     cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
-    cdef double length, scale
+    cdef double length, scale, quarter = 0.25 * stencil.spacing
+    cdef int dim = stencil.dim
     cdef double[PART] factors
     cdef four of_water, of_solids, turned_, v
     cdef four[PART] r
@@ -44,12 +47,39 @@ def shift(const double[:, ::1] position, const int[::1] row, const int[::1] soli
                     turned_ = plus_turned(turned_, &c[other[k], 0, 0], v)
                 for k in range(max(begin, solid[i]), end):
                     of_solids = plus(of_solids, factors[k - begin], r[k - begin])
+            if smooth and solid[i] < row[i + 1]:
+                of_solids = along_normal(of_solids, &position[0, 0], i, &other[0], solid[i],
+                                         row[i + 1], radius, width, quarter, dim)
             turned_ = plus_turned(turned_, &c[i, 0, 0], plus(of_water, 2.0, of_solids))
             length = 0.5 * factor * sqrt(lane(turned_, 0) ** 2 + lane(turned_, 1) ** 2
                                          + lane(turned_, 2) ** 2)
             scale = -0.5 * factor * (longest / length if length > longest else 1.0)
             for a in range(3):
                 out[i, a] = scale * lane(turned_, a)
+
+
+cdef inline four along_normal(four of_solids, const double* position, Py_ssize_t i,
+                              const int* other, Py_ssize_t begin, Py_ssize_t end, double radius,
+                              double width, double quarter, int dim) noexcept nogil:
+    """The part of sum_j w r_ij/r^2 over the solids of a particle that is along their normal."""
+    cdef double[3] push, smooth
+    cdef double[12] aside
+    cdef double[4] whole
+    cdef four r, here = load(position + 4 * i)
+    cdef Py_ssize_t k
+    cdef int a, n, count
+    for a in range(3):
+        push[a], smooth[a] = lane(of_solids, a), 0.0
+    if dot(push, push) == 0.0:
+        return of_solids
+    count = places(push, quarter, dim, aside)
+    for k in range(begin, end):
+        r = nearest(minus(load(position + 4 * other[k]), here), width)
+        for n in range(count):
+            pulled(lane(r, 0), lane(r, 1), lane(r, 2), aside + 3 * n, radius, smooth)
+    turn(smooth, push)
+    whole[0], whole[1], whole[2], whole[3] = push[0], push[1], push[2], 0.0
+    return load(whole)
 
 
 cdef inline void pulls(const double* position, Py_ssize_t i, const int* other, int count,

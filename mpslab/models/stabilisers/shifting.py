@@ -42,8 +42,8 @@ def shift(near, matrices, factor, paces):
     density.beside(near.row, near.other, near.offset, particles.surface, held)
     moves = (particles.fluid & (held == 0)).astype(np.uint8)
     repulsion.shift(
-        padded(particles.position), near.row, near.solid, near.other, near.stencil, matrices,
-        moves, factor, LONGEST * near.stencil.spacing * paces, move,
+        padded(particles.position), near.row, near.solid, near.other, near.stencil, near.smooth,
+        matrices, moves, factor, LONGEST * near.stencil.spacing * paces, move,
     )  # fmt: skip
     particles.position += move
 
