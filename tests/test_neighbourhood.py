@@ -194,8 +194,8 @@ def test_corrected_shifting_is_the_sum_of_its_formula(dim):
     expected *= LONGEST / np.maximum(length, LONGEST)
     out, moves = np.empty_like(expected), pairs.water.astype(np.uint8)
     repulsion.shift(
-        near.position, near.row, near.solid, near.other, near.stencil, False, near.correction, moves, 0.1,
-        LONGEST, out,
+        near.position, near.row, near.solid, near.other, near.stencil, False, near.correction,
+        moves, 0.1, LONGEST, out,
     )  # fmt: skip
     assert_close(out, expected)
 
