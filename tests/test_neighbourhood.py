@@ -150,7 +150,7 @@ def test_a_smooth_box_is_lifted_by_the_water_it_displaces(dim):
 @pytest.mark.parametrize("dim", DIMS)
 def test_water_that_flows_along_a_wall_has_no_divergence_beside_it(dim):
     """u = (x, 0, -z) above a still wall at z = 0."""
-    place = lattice(dim, 8) + [0.0, 0.0, 0.5]
+    place = lattice(dim, 8) + np.array([0.0, 0.0, 0.5])
     particles = particles_at(place, np.where(place[:, 2] < 0.0, FACE, FLUID))
     particles.velocity[:] = place * [1.0, 0.0, -1.0] * particles.fluid[:, np.newaxis]
     inside = np.all(np.abs(place - [0.0, 0.0, 3.0]) < [4.0, 4.0 if dim == 3 else 1.0, 3.0], axis=1)

@@ -15,6 +15,8 @@ KARMAN = 0.41
 SMOOTH = 9.0  # u+ = ln(9 y+)/0.41: the law of a smooth wall (u+ = ln(y+)/0.41 + 5.4)
 ROUGH = 30.0  # u = u* ln(30 y/k_s)/0.41: that of sand grains k_s (Nikuradse 1933)
 ROUNDS = 12
+SLOWEST = 1e-12  # [m/s]
+TINY = 1e-30  # [m]
 
 
 def grip(near, fluid, roughness, refresh):
@@ -62,11 +64,11 @@ def friction_velocity(velocity, height, viscosity, roughness):
         Equivalent sand roughness k_s, 0 for a smooth wall.
     """
     laminar = np.sqrt(viscosity * velocity / height)
-    star = np.maximum(laminar, 1e-12)
+    star = laminar
     for _ in range(ROUNDS):
-        grain = viscosity / (SMOOTH * star) + roughness / ROUGH
+        grain = viscosity / (SMOOTH * np.maximum(star, SLOWEST)) + roughness / ROUGH
         # At heights below e grains the logarithm says nothing; the drag then is at its largest.
-        star = np.maximum(KARMAN * velocity / np.log(np.maximum(height / grain, np.e)), 1e-12)
+        star = KARMAN * velocity / np.log(np.maximum(height / np.maximum(grain, TINY), np.e))
     return np.maximum(star, laminar)
 
 
