@@ -83,6 +83,18 @@ def _check_models(case):
         f"marked where scheme.walls = {scheme.walls!r}, for dry walls need p = 0 at marked "
         "particles",
     )
+    require(
+        not scheme.wall_law or scheme.wall_slip,
+        "scheme.wall_law",
+        scheme.wall_law,
+        "false where scheme.wall_slip = false: walls have one friction or the other",
+    )
+    require(
+        not scheme.wall_law or case.fluid.viscosity > 0.0 or case.tank.roughness > 0.0,
+        "scheme.wall_law",
+        scheme.wall_law,
+        "false where fluid.viscosity and tank.roughness are 0: nothing holds the water back",
+    )
     _check_radii(scheme)
 
 

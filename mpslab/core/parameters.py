@@ -34,6 +34,12 @@ class Tank:
         unit="m",
         low=0,
     )
+    roughness: float = key(
+        "equivalent sand roughness of walls and solids, for scheme.wall_law; 0: smooth",
+        0.0,
+        unit="m",
+        low=0,
+    )
     periodic: bool = key("true: periodic across y; false: side walls", False)
     lid: bool = key("true: closed on top, at tank.height; not with a wavemaker or a gate", False)
 

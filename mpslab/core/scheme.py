@@ -86,6 +86,9 @@ class Scheme:
     restitution: float = key("coefficient of restitution of 'collision'", 0.2, low=0, high=1)
     clip_pressure: bool = key("set negative pressure to zero", True)
     wall_slip: bool = key("leave walls out of viscosity and eddies", True)
+    wall_law: bool = key(
+        "friction of the walls by the law of the wall, in place of that of viscosity", False
+    )
     smagorinsky: float = key(
         "constant C_s of an eddy viscosity (C_s spacing)^2 |S|; 0 for none", 0.0, low=0, high=0.5
     )

@@ -80,6 +80,28 @@ def acceleration(const int[::1] row, const int[::1] solid, const int[::1] other,
                 out[i, a] = factor * lane(total, a)
 
 
+def drag(const int[::1] row, const int[::1] solid, const int[::1] other,
+         const float[::1] inverse, const signed char[::1] role, stencil,
+         const double[:, ::1] velocity, const double[::1] grip, double[:, ::1] out):
+    """sum_j grip_j w (u_j - u_i) over the solids beside each particle of water [m/s2].
+
+    grip : (n,) of solids [1/s]
+    """
+    cdef double radius = stencil.radius
+    cdef four here, total
+    cdef Py_ssize_t i, k, a
+    with nogil:
+        for i in range(solid.shape[0]):
+            if role[i] != FLUID or solid[i] == row[i + 1]:
+                continue
+            here, total = load(&velocity[i, 0]), nothing()
+            for k in range(solid[i], row[i + 1]):
+                total = plus(total, grip[other[k]] * weight(inverse[k], radius),
+                             minus(load(&velocity[other[k], 0]), here))
+            for a in range(3):
+                out[i, a] = lane(total, a)
+
+
 def strain_rate(const int[::1] row, const int[::1] solid, const int[::1] other,
                 const float[:, ::1] offset, const signed char[::1] role, stencil,
                 const double[:, ::1] velocity, const double[:, :, ::1] c, bint slip,

@@ -7,7 +7,7 @@ import numpy as np
 from mpslab.core.particles import add_where, put_where
 from mpslab.core.timestep import pace
 from mpslab.forcings import total
-from mpslab.models import friction, surface, wall_pressure
+from mpslab.models import friction, surface, wall_law, wall_pressure
 from mpslab.pressure import equation
 from mpslab.run import pressing
 
@@ -39,6 +39,7 @@ def advance(flow, dt):
         for one in flow.exchanges:
             one.find(flow.near)
         _add_viscosity(flow, dt)
+        _add_drag(flow, dt)
         if moves:
             _stabilise(flow, "predicted", dt)
             measure(flow)
@@ -124,6 +125,15 @@ def _add_viscosity(flow, dt):
         flow.particles.velocity += change(flow.near)  # no solid has a part in it
     else:
         _act(flow, flow.near, change)
+
+
+def _add_drag(flow, dt):
+    """Let the walls hold the water back, as the law of the wall says."""
+    if not flow.case.scheme.wall_law:
+        return
+    fluid, roughness = flow.case.fluid, flow.case.tank.roughness
+    held = wall_law.grip(flow.near, fluid, roughness, flow.domain.refresh)
+    _act(flow, flow.near, lambda near: dt * wall_law.acceleration(near, near.pick(held)))
 
 
 def find_surface(flow):
