@@ -62,21 +62,24 @@ class Plain:
         return np.bincount(self.i, values, len(self.water))
 
     def geometry(self):
-        """r_ij (m, 3) and w/r^2 (m,)."""
+        """r_ij (m, 3), to solids as the water sees them, w/r^2 (m,) and r (m,)."""
         x, width = self.flow.particles.position, self.flow.stencil.width
         r = x[self.j] - x[self.i]
         if width:
             r[:, 1] -= width * np.rint(r[:, 1] / width)
         square = np.einsum("ka,ka->k", r, r)
-        return r, np.maximum(self.flow.stencil.radius / np.sqrt(square) - 1.0, 0.0) / square
+        solid = np.flatnonzero(~self.water[self.j])
+        r[solid] += self.near.offset[solid, :3] - self.near.straight[solid, :3]
+        far = np.sqrt(square)
+        return r, np.maximum(self.flow.stencil.radius / far - 1.0, 0.0) / square, far
 
     def measure(self):
-        r, g = self.geometry()
+        r, g, far = self.geometry()
         second = [self.sum(g * r[:, a] * r[:, b]) for a in range(3) for b in range(a, 3)]
-        return np.stack([*second, self.sum(g * np.einsum("ka,ka->k", r, r))], axis=1)
+        return np.stack([*second, self.sum(g * far**2)], axis=1)
 
     def viscosity(self):
-        r, g = self.geometry()
+        r, g, _ = self.geometry()
         u, stencil, i, j = self.flow.particles.velocity, self.flow.stencil, self.i, self.j
         w = g * np.einsum("ka,ka->k", u[j] - u[i], r) * self.water[j]
         nu, moment = self.flow.case.fluid.viscosity, stencil.lambda0 * stencil.n0
@@ -84,13 +87,13 @@ class Plain:
         return factor * np.stack([self.sum(w * r[:, a]) for a in range(3)], axis=1)
 
     def adjoint(self):
-        r, g = self.geometry()
+        r, g, _ = self.geometry()
         c, u, i, j = self.near.correction[:, :, :3], self.flow.particles.velocity, self.i, self.j
         d = np.where(self.water[j, None, None], c[j], c[i])
         return self.sum(g * np.einsum("ka,kab,kb->k", u[j] - u[i], d, r))
 
     def gradient(self):
-        r, g = self.geometry()
+        r, g, _ = self.geometry()
         c, p, i, j = self.near.correction[:, :, :3], self.flow.particles.pressure, self.i, self.j
         d = np.where(self.water[j, None, None], c[j], c[i])
         both = p[i, None, None] * d + p[j, None, None] * c[i]
@@ -98,9 +101,8 @@ class Plain:
         return np.stack([self.sum(force[:, a]) for a in range(3)], axis=1)
 
     def matrix(self):
-        r, g = self.geometry()
+        _, g, far = self.geometry()
         one, first, third = self.flow.pair_terms
-        far = np.sqrt(np.einsum("ka,ka->k", r, r))
         value = (one + first / far + third / far**3) * (g > 0.0) * self.water[self.j]
         return self.sum(value)[self.water] / self.flow.case.fluid.density
 
