@@ -31,6 +31,10 @@ class Scheme:
         "extrapolated",
         choices=("solved", "copied", "extrapolated"),
     )
+    smooth_walls: bool = key(
+        "with walls 'extrapolated': water feels nothing of the particles of a wall along its face",
+        False,
+    )
     surface: str = key(
         "free surface: p = 0 at marked particles, or a graded pull towards p = 0 above them",
         "graded",

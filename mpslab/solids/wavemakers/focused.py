@@ -79,9 +79,10 @@ def _early(table, rise, begin, last):
     """Whether some of the group would have to set out before the run begins."""
     if begin > 0.0:
         return []
+    middle = min(0.5 * rise, last)
     before, after = (
         np.sum(table(np.arange(a, b, table.step), 1) ** 2)
-        for a, b in ((last - table.length, 0.5 * rise), (0.5 * rise, last))
+        for a, b in ((last - table.length, middle), (middle, last))
     )
     share = before / (before + after)
     if share <= LATE:
