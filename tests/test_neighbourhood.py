@@ -120,6 +120,30 @@ def test_a_smooth_bed_pushes_nowhere_but_up(dim):
     assert aside[True] < 0.3 * aside[False]
 
 
+@pytest.mark.parametrize("dim", DIMS)
+def test_shifting_sees_a_smooth_bed_as_the_pressure_does(dim):
+    """Where the pressure pushes straight up, water is shifted straight up."""
+    bed = lattice(dim, 3)
+    bed = bed[bed[:, 2] < 0.0] + [0.0, 0.0, 0.5]
+    place = np.vstack([[0.2, 0.1 * (dim - 2), 0.4], bed])
+    particles = particles_at(place, np.where(np.arange(len(place)), FACE, FLUID))
+    aside = {}
+    for smooth in (False, True):
+        near = Neighbourhood(make_stencil(dim, 1.0, 2.1))
+        near.measure(particles, neighbors_of(place, 2.6), smooth=smooth)
+        push = near.second[0, :, 3]
+        matrices, move = np.zeros_like(near.second), np.empty_like(place)
+        matrices[:, range(3), range(3)] = 1.0
+        repulsion.shift(
+            near.position, near.row, near.solid, near.other, near.stencil, smooth, matrices,
+            particles.fluid.astype(np.uint8), 1e-3, LONGEST, move,
+        )  # fmt: skip
+        np.testing.assert_allclose(move[0], -1e-3 * push, atol=1e-8)
+        aside[smooth] = np.abs(move[0, :2]).max() / move[0, 2]
+    assert aside[False] > 0.02
+    assert aside[True] < 0.3 * aside[False]
+
+
 def box_in_water(dim):
     """Water on the lattice around a box of 6 x 4 spacings (6 x 6 x 4), and which of it is near."""
     place = lattice(dim, 8)

@@ -252,6 +252,8 @@ def test_focused_wave_is_the_highest_of_so_many():
 def test_focused_wave_that_comes_too_soon_or_too_late_brings_a_warning():
     (line,) = make("focused", place=4.0, time=3.0, band=(0.5, 2.0)).doubts
     assert "before it has begun to move" in line
+    long = make("focused", place=4.0, band=(0.5, 2.0), start=1e12).doubts
+    assert any("100 % of the paddle's motion lies before" in line for line in long)
     (line,) = make("focused", place=4.0, band=(0.5, 2.0), end=5.0).doubts
     assert "after time.end" in line
 
