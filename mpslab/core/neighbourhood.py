@@ -38,8 +38,10 @@ class Neighbourhood:
     other : (m,) int32
         The neighbour.
     offset : (m + LANES, 4) float32
-        r_ij [m] and w/r^2 [1/m2]; what is behind the m pairs means nothing. Smooth
-        solids have slid along their face, for water.
+        r_ij [m] and w/r^2 [1/m2]; what is behind the m pairs means nothing. Smooth solids have
+        slid along their face, for water.
+    smooth : bool
+        Whether solids are smooth.
     straight : (m + LANES, 4) float32
         r_ij [m] as it is, of pairs of water with solids.
     inverse : (m + LANES,) float32

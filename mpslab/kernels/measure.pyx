@@ -129,7 +129,7 @@ cdef inline void slide(Py_ssize_t begin, Py_ssize_t end, double radius, double s
         for a in range(3):
             straight[k, a] = offset[k, a]
         weight += pulled(offset[k, 0], offset[k, 1], offset[k, 2], nowhere, radius, push)
-    if weight == 0.0 or dot(push, push) == 0.0:
+    if dot(push, push) == 0.0:
         return
     count = places(push, 0.25 * spacing, dim, aside)
     for n in range(count):

@@ -24,7 +24,7 @@ def mirror(const int[::1] row, const int[::1] solid, const int[::1] other,
     With it the velocity at the face of a wall is that of the wall (Adami, Hu & Adams 2012).  Water
     keeps its velocity, and so do solids without any near.
 
-    total : (n,) scratch
+    total : (n,) out, sum_f w of each solid
     """
     cdef double radius = stencil.radius
     cdef double w

@@ -16,7 +16,6 @@ SMOOTH = 9.0  # u+ = ln(9 y+)/0.41: the law of a smooth wall (u+ = ln(y+)/0.41 +
 ROUGH = 30.0  # u = u* ln(30 y/k_s)/0.41: that of sand grains k_s (Nikuradse 1933)
 ROUNDS = 12
 SLOWEST = 1e-12  # [m/s]
-TINY = 1e-30  # [m]
 
 
 def grip(near, fluid, roughness, refresh):
@@ -68,7 +67,7 @@ def friction_velocity(velocity, height, viscosity, roughness):
     for _ in range(ROUNDS):
         grain = viscosity / (SMOOTH * np.maximum(star, SLOWEST)) + roughness / ROUGH
         # At heights below e grains the logarithm says nothing; the drag then is at its largest.
-        star = KARMAN * velocity / np.log(np.maximum(height / np.maximum(grain, TINY), np.e))
+        star = KARMAN * velocity / np.log(np.maximum(height / grain, np.e))
     return np.maximum(star, laminar)
 
 
