@@ -93,6 +93,13 @@ class Scheme:
     wall_law: bool = key(
         "friction of the walls by the law of the wall, in place of that of viscosity", False
     )
+    hyperviscosity: float = key(
+        "share of the differences from particle to particle that velocities lose in the same time "
+        "as the shares above; longer waves lose far less",
+        0.0,
+        low=0,
+        high=0.5,
+    )
     smagorinsky: float = key(
         "constant C_s of an eddy viscosity (C_s spacing)^2 |S|; 0 for none", 0.0, low=0, high=0.5
     )

@@ -77,6 +77,11 @@ def pace(case):
     return PACE * case.particles.spacing / speed if speed > 0.0 else case.time.maximum
 
 
+def share(strength, dt, pace):
+    """What a step dt [s] takes back of what is to lose a share `strength` in each pace [s]."""
+    return 1.0 - (1.0 - strength) ** (dt / pace)
+
+
 def wave_speed(case, gravity):
     """sqrt(g h) with the largest depth; without gravity the largest speed at the start [m/s]."""
     return sqrt(gravity) * sqrt(case.tank.deepest) or initial_speed(case)

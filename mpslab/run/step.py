@@ -5,9 +5,9 @@ import math
 import numpy as np
 
 from mpslab.core.particles import add_where, put_where
-from mpslab.core.timestep import pace
+from mpslab.core.timestep import pace, share
 from mpslab.forcings import total
-from mpslab.models import friction, surface, wall_law, wall_pressure
+from mpslab.models import friction, hyperviscosity, surface, wall_law, wall_pressure
 from mpslab.pressure import equation
 from mpslab.run import pressing
 
@@ -191,6 +191,7 @@ def _correct(flow, start, dt):
     """u = u* - (dt/rho) grad p and r = start + u dt, then keep the particles in order."""
     particles = flow.particles
     _press(flow, dt)
+    _even_out(flow, dt)
     put_where(particles.fluid, particles.position, start + _flight(flow, dt))
     if flow.case.scheme.projection == "start":
         flow.solids.move(particles, flow.time, dt)
@@ -202,6 +203,14 @@ def _correct(flow, start, dt):
 def _press(flow, dt):
     """u = u* - (dt/rho) grad p."""
     _act(flow, *pressing.push(flow, dt))
+
+
+def _even_out(flow, dt):
+    """Take a share of the differences from particle to particle off the velocities."""
+    strength, velocity = flow.case.scheme.hyperviscosity, flow.particles.velocity
+    if strength > 0.0:
+        part = share(strength, dt, pace(flow.case))
+        velocity += hyperviscosity.change(flow.near, velocity, part, flow.domain.refresh)
 
 
 def _act(flow, near, change):

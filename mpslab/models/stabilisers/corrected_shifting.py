@@ -1,6 +1,7 @@
 """Particle shifting with the matrices of the corrected gradient."""
 
-from mpslab.models.stabilisers.shifting import share, shift
+from mpslab.core.timestep import share
+from mpslab.models.stabilisers.shifting import shift
 
 STAGE = "corrected"
 KEEPS_VELOCITY = True
@@ -15,5 +16,5 @@ def stabilise(near, dt, pace, scheme):
     takes back (in fact a little less, because the matrices change as well); near 1/2 neighbours
     overshoot together.  The matrices are those of the places where the pressure acted.
     """
-    factor = share(scheme, dt, pace) / near.stencil.restoring
+    factor = share(scheme.shifting_strength, dt, pace) / near.stencil.restoring
     shift(near, near.correction, factor, dt / pace)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from mpslab.core.neighbourhood import padded
+from mpslab.core.timestep import share
 from mpslab.kernels import density, repulsion
 
 STAGE = "corrected"
@@ -17,7 +18,7 @@ def stabilise(near, dt, pace, scheme):
     """
     matrices = np.zeros_like(near.second)
     matrices[:, range(3), range(3)] = 1.0
-    factor = share(scheme, dt, pace) * near.stencil.spacing**2 / near.stencil.n0
+    factor = share(scheme.shifting_strength, dt, pace) * near.stencil.spacing**2 / near.stencil.n0
     shift(near, matrices, factor, dt / pace)
 
 
@@ -47,7 +48,3 @@ def shift(near, matrices, factor, paces):
     )  # fmt: skip
     particles.position += move
 
-
-def share(scheme, dt, pace):
-    """Share of a displacement that a step dt [s] takes back: ``shifting_strength`` in each pace."""
-    return 1.0 - (1.0 - scheme.shifting_strength) ** (dt / pace)
