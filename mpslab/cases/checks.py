@@ -84,13 +84,6 @@ def _check_models(case):
         "particles",
     )
     require(
-        not scheme.smooth_walls or scheme.walls == "extrapolated",
-        "scheme.smooth_walls",
-        scheme.smooth_walls,
-        f"false where scheme.walls = {scheme.walls!r}: walls that have rows of their own are not "
-        "smoothed",
-    )
-    require(
         not scheme.wall_law or scheme.wall_slip,
         "scheme.wall_law",
         scheme.wall_law,

@@ -27,13 +27,10 @@ class Scheme:
     )
     walls: str = key(
         "wall pressure: an unknown of the first layer; the same, and copied from it to the layers "
-        "behind; or extrapolated from the water to all layers",
+        "behind; or extrapolated from the water to all layers, whose particles water does not feel "
+        "along their face",
         "extrapolated",
         choices=("solved", "copied", "extrapolated"),
-    )
-    smooth_walls: bool = key(
-        "with walls 'extrapolated': water feels nothing of the particles of a wall along its face",
-        False,
     )
     surface: str = key(
         "free surface: p = 0 at marked particles, or a graded pull towards p = 0 above them",
@@ -95,8 +92,8 @@ class Scheme:
     )
     hyperviscosity: float = key(
         "share of the differences from particle to particle that velocities lose in the same time "
-        "as the shares above; longer waves lose far less",
-        0.0,
+        "as those of gamma and shifting; longer waves lose far less",
+        0.5,
         low=0,
         high=0.5,
     )

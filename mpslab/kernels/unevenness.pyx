@@ -10,8 +10,9 @@ b : (n, 4) [1/m], the fourth number 0
 from mpslab.kernels.lanes cimport four, lane, load, minus, nothing, plus, store, times, widened
 from mpslab.kernels.pair cimport FLUID, weight
 
-# Of the second moment, 1 in a full neighbourhood: with less (a film, spray) b is 0.
-cdef double LEAST_DETERMINANT = 0.05
+# Determinant of the second moment, 1 in a full neighbourhood, 0.04 at a corner of water in 3-D;
+# with less (a film, spray) b is 0.
+cdef double LEAST_DETERMINANT = 0.008
 
 
 def unevenness(const int[::1] row, const int[::1] solid, const int[::1] other,
@@ -24,7 +25,7 @@ def unevenness(const int[::1] row, const int[::1] solid, const int[::1] other,
     cdef double radius = stencil.radius, share = 1.0 / stencil.n0, w
     cdef int dim = stencil.dim
     cdef double[4] slope
-    cdef four here, u, r, gr, lean, sums, mx, my, mz, x, y, z
+    cdef four here, u, r, gr, lean, sums, xx, yy, zz, x, y, z
     cdef Py_ssize_t i, k
     with nogil:
         for i in range(solid.shape[0]):
@@ -33,15 +34,16 @@ def unevenness(const int[::1] row, const int[::1] solid, const int[::1] other,
             if role[i] != FLUID:
                 continue
             here = load(&velocity[i, 0])
-            lean = sums = mx = my = mz = x = y = z = nothing()
+            lean = sums = xx = yy = zz = x = y = z = nothing()
             for k in range(row[i], solid[i]):
                 u, r = minus(load(&velocity[other[k], 0]), here), widened(&offset[k, 0])
                 w = share * weight(inverse[k], radius)
                 gr = times(share * lane(r, 3), r)
                 sums, lean = plus(sums, w, u), plus(lean, w, r)
-                mx, my, mz = plus(mx, lane(r, 0), gr), plus(my, lane(r, 1), gr), plus(mz, lane(r, 2), gr)
+                xx, yy = plus(xx, lane(r, 0), gr), plus(yy, lane(r, 1), gr)
+                zz = plus(zz, lane(r, 2), gr)
                 x, y, z = plus(x, lane(gr, 0), u), plus(y, lane(gr, 1), u), plus(z, lane(gr, 2), u)
-            if solve(mx, my, mz, lean, dim, slope):
+            if solve(xx, yy, zz, lean, dim, slope):
                 store(&b[i, 0], load(slope))
                 sums = plus(plus(plus(sums, -slope[0], x), -slope[1], y), -slope[2], z)
             store(&out[i, 0], sums)
@@ -53,11 +55,12 @@ cdef inline bint solve(four x, four y, four z, four right, int dim, double* out)
     cdef double yy = lane(y, 1) if dim == 3 else 1.0 / dim, yz = lane(y, 2), zz = lane(z, 2)
     cdef double a = yy * zz - yz * yz, b = xz * yz - xy * zz, c = xy * yz - yy * xz
     cdef double d = xx * zz - xz * xz, e = xy * xz - xx * yz, f = xx * yy - xy * xy
-    cdef double det = xx * a + xy * b + xz * c
+    cdef double det = xx * a + xy * b + xz * c, u, v, w
     if det * dim * dim * dim < LEAST_DETERMINANT:
         return False
-    cdef double u = lane(right, 0) / det, v = lane(right, 1) / det, w = lane(right, 2) / det
-    out[0], out[1], out[2], out[3] = a * u + b * v + c * w, b * u + d * v + e * w, c * u + e * v + f * w, 0.0
+    u, v, w = lane(right, 0) / det, lane(right, 1) / det, lane(right, 2) / det
+    out[0], out[1], out[2] = a * u + b * v + c * w, b * u + d * v + e * w, c * u + e * v + f * w
+    out[3] = 0.0
     return True
 
 

@@ -103,8 +103,7 @@ def measure(flow, with_gradient=True):
     The pairs of a gradient with a radius of its own are left out where nothing needs them yet.
     """
     everywhere = np.ones(len(flow.particles), bool) if flow.extrapolates else None
-    smooth = flow.case.scheme.smooth_walls
-    flow.near.measure(flow.particles, flow.neighbors, everywhere, smooth)
+    flow.near.measure(flow.particles, flow.neighbors, everywhere, smooth=flow.extrapolates)
     if with_gradient and flow.near_gradient is not flow.near:
         flow.near_gradient.measure_as(flow.near)
     flow.particles.number_density[:] = flow.near.number_density
