@@ -88,7 +88,8 @@ def test_all_runs_are_cases_of_the_papers_tank(size):
     for run in table.values():
         case = run.case
         assert (case.tank.length, case.tank.depth) == (0.8, 0.04)
-        assert case.time.end == 1.4
+        assert case.time.end == (1.25 if (size, run.name) == ("quick", "fine") else 1.4)
+        assert case.time.end >= fig_2.SPLASH_UP + run.late
         assert (case.wavemaker.height, case.wavemaker.period) == (0.0196, 0.777)
     assert table["mps"].case.scheme.gradient == "mps"
     assert table["cmps"].case.scheme.recipe == "paper"
@@ -132,6 +133,28 @@ def test_what_is_kept_is_the_run(tiny):
             borders, share, work = run.cuts(time, method)
             assert len(borders) == RANKS + 1 and np.all(np.diff(borders) > 0.0)
             assert share.sum() == pytest.approx(1.0) and work.sum() == pytest.approx(1.0)
+
+
+def test_runs_on_one_rank_are_made_side_by_side(monkeypatch, tmp_path, capfd):
+    changes = {"particles.spacing": 0.01, "tank.width": 0.0, "time.end": 0.004}
+    one, two, three = (runs.Run(name, name, 1, changes) for name in ("one", "two", "three"))
+    wide = runs.Run("wide", "wide", 2, changes)
+    monkeypatch.setattr(runs, "cores", lambda: {0, 1})
+    rows = [one, two, three, wide, wide]
+    assert list(runs.batches(rows)) == [[one, two], [three], [wide], [wide]]
+    out = tmp_path / "out"
+    runs.make_all([one, two], out)
+    assert runs.is_done(one, out / "one") and runs.is_done(two, out / "two")
+    assert capfd.readouterr().out.count("Done:") == 1
+    assert (out / "two.log").read_text().count("Done:") == 1
+
+
+def test_a_run_that_stops_is_named_after_the_one_beside_it_has_ended(tmp_path):
+    changes = {"particles.spacing": 0.01, "tank.width": 0.0, "time.end": 0.004}
+    bad, good = runs.Run("bad", "bad", 1, {"time.end": -1.0}), runs.Run("good", "good", 1, changes)
+    with pytest.raises(runs.Failed, match="bad"):
+        runs.make_all([bad, good], tmp_path)
+    assert runs.is_done(good, tmp_path / "good")
 
 
 def test_a_folder_with_another_run_is_refused(tiny):
@@ -300,7 +323,7 @@ def test_a_figure_whose_runs_are_missing_is_named(tmp_path, capsys):
 
 def test_run_makes_what_is_missing_and_nothing_twice(tmp_path, monkeypatch, tiny):
     made = []
-    monkeypatch.setattr(runs, "make", lambda run, folder: made.append(run.name))
+    monkeypatch.setattr(runs, "make", lambda run, folder, log: made.append(run.name))
     monkeypatch.setattr(command, "keep", lambda folder, target, run: shutil.copytree(
         tiny[1].folder, target))  # fmt: skip
     line = ["--out", str(tmp_path), "--run", "--quick", "--only", "mps", "--only", "fine"]
@@ -308,17 +331,15 @@ def test_run_makes_what_is_missing_and_nothing_twice(tmp_path, monkeypatch, tiny
     assert command.main(line) == 0 and made == ["mps", "fine"]
 
 
-def test_methods_go_on_from_the_states_of_a_run_and_are_kept(tmp_path, monkeypatch):
+def test_methods_go_on_from_the_states_of_a_run_and_are_kept(tmp_path):
     changes = {"particles.spacing": 0.01, "tank.width": 0.08, "time.end": 0.04,
                "output.interval": 0.02, "scheme.recipe": "paper"}  # fmt: skip
     run = runs.Run("cmps", "CMPS", 1, changes, stops=(0.01, 0.02))
-    plan = runs.read_table() | {"samples": {"at": run.stops, "steps": 3}}
-    monkeypatch.setattr(runs, "read_table", lambda: plan)
     runs.make(run, tmp_path / "cmps")
     assert runs.is_done(run, tmp_path / "cmps")
     methods = [samples.read_methods()[name] for name in ("iccg", "deflated")]
     methods = [replace(method, ranks=1) for method in methods]
-    samples.take(methods, tmp_path, tmp_path / "results")
+    samples.take(methods, {"at": run.stops, "steps": 3}, tmp_path, tmp_path / "results")
     found = kept.read(tmp_path / "results", {}, {one.name: one for one in methods})
     for method in found.values():
         assert method.states.tolist() == [0.01, 0.02]
