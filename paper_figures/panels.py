@@ -32,11 +32,11 @@ LINES = {
 
 
 def name_of(run):
-    """How a panel is headed: gradient or recipe, and particle spacing."""
+    """How a panel is headed: gradient or recipe, particle spacing, and 2-D where it is."""
     scheme = run.case["scheme"]
     names = {"mps": "MPS", "cmps": "CMPS", "cmps_soft": "CMPS"}
     recipe = names.get(scheme["gradient"], scheme["recipe"])
-    return f"{recipe}, $d_0$ = {1e3 * run.spacing:g} mm"
+    return f"{recipe}, $d_0$ = {1e3 * run.spacing:g} mm{'' if run.width else ', 2-D'}"
 
 
 def layer(water, run):

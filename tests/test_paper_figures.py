@@ -103,6 +103,14 @@ def test_all_runs_that_a_figure_needs_are_in_the_table():
         assert set(figure.RUNS) <= {*runs.read_runs("full"), *samples.read_methods()}
 
 
+def test_in_2d_all_water_is_one_layer_and_none_of_its_surface_is_across():
+    water = block(30, 1, 20)
+    water[:, 1] = 0.0
+    assert [one.all() for one in measures.slices(water, D0, 0.0)] == [True]
+    slope = water[water[:, 2] < 0.5 * water[:, 0] + 0.01]
+    assert measures.share_across(slope, D0, 0.0) == 0.0
+
+
 @pytest.fixture(scope="module")
 def tiny(tmp_path_factory):
     """A run of three steps of the paper's tank, far too coarse, and what is kept of it."""
@@ -205,7 +213,8 @@ def title(found, name, time):
     """How a panel is headed that shows a run at a time of a wave that is not late [s]."""
     recipe = {"mps": "MPS", "cmps": "CMPS"}.get(name, "standard")
     spacing = 1e3 * found[name].spacing
-    return f"{recipe}, $d_0$ = {spacing:g} mm, t = {time + found[name].late:.2f} s"
+    kind = "" if found[name].width else ", 2-D"
+    return f"{recipe}, $d_0$ = {spacing:g} mm{kind}, t = {time + found[name].late:.2f} s"
 
 
 def titles(axes):
@@ -228,7 +237,7 @@ def test_figure_2_shows_four_runs_at_touch_down_and_splash_up(drawn, found):
     times = (fig_2.TOUCH_DOWN, fig_2.SPLASH_UP)
     wanted = [title(found, name, time) for name in fig_2.RUNS for time in times]
     assert titles(panels(drawn["fig_2"])) == titles(flat(drawn["fig_2"])) == wanted
-    assert found["fine"].spacing < found["standard"].spacing
+    assert found["fine"].spacing == 0.5 * found["standard"].spacing
 
 
 def test_figure_3_shows_the_surface_at_the_jet_and_after_it_and_its_variance(drawn, found):
