@@ -1,7 +1,8 @@
 """Makes the pictures of the tank in docs again: ``python docs/pictures.py [NAME ...]``.
 
-Runs what is not there yet, in runs/docs, and writes a PNG of each; docs/scaling.png comes from
-``python -m benchmarks.model``.
+Runs what is not there yet, in runs/docs, and writes a PNG of each. The film of README,
+breaker.webp, is made only if it is named, for its run takes half an hour or more; docs/scaling.png
+comes from ``python -m benchmarks.model``.
 """
 
 import subprocess
@@ -10,7 +11,7 @@ from pathlib import Path
 
 import matplotlib
 
-from mpslab import open_run
+from mpslab import film, open_run
 from mpslab.analysis.pictures import STYLE, save_small
 from mpslab.analysis.snapshots import draw_breaker, draw_tank
 
@@ -32,6 +33,7 @@ CHANGES = {
     "printed": SLICE | TWO_WAVES | CLASSIC | {"scheme.gradient": "cmps"},
     "mps": SLICE | TWO_WAVES | CLASSIC | {"scheme.gradient": "mps"},
     "paper": SLICE | JET | {"scheme.recipe": "paper"},
+    "film": PAPER | {"wavemaker.first": "backward", "time.end": 1.4, "output.interval": 0.01},
 }
 # Name of the picture, its run, and what draws it.
 PICTURES = {
@@ -42,6 +44,8 @@ PICTURES = {
     "breaker": ("standard", draw_breaker),
     "cmps": ("paper", draw_breaker),
 }
+FILM = "breaker.webp"
+SHOT = {"start": 0.92, "window": (0.22, 0.54), "surface": True, "fps": 12.5, "width": 1200}
 
 
 def run(name):
@@ -57,20 +61,28 @@ def run(name):
     return folder
 
 
+def draw(name):
+    """Draw a picture, or the film; returns its path."""
+    if name == FILM:
+        return film.make(run("film"), DOCS / FILM, **SHOT)[0]
+    source, figure_of = PICTURES[name]
+    found, path = open_run(run(source)), DOCS / f"{name}.png"
+    with matplotlib.rc_context(STYLE):
+        figure = figure_of(found.frames, found.tables)
+        if figure is None:
+            raise SystemExit(f"{name}: no wave breaks in {found.folder}")
+        save_small(figure, path, LARGEST)
+    return path
+
+
 def main(names):
-    """Make the pictures of these names, or all."""
-    unknown = set(names) - set(PICTURES)
+    """Make what these names name, or all pictures."""
+    every = (*PICTURES, FILM)
+    unknown = set(names) - set(every)
     if unknown:
-        raise SystemExit(f"{', '.join(sorted(unknown))}: must be out of {', '.join(PICTURES)}")
+        raise SystemExit(f"{', '.join(sorted(unknown))}: must be out of {', '.join(every)}")
     for name in names or PICTURES:
-        source, draw = PICTURES[name]
-        found = open_run(run(source))
-        with matplotlib.rc_context(STYLE):
-            figure = draw(found.frames, found.tables)
-            if figure is None:
-                raise SystemExit(f"{name}: no wave breaks in {found.folder}")
-            save_small(figure, DOCS / f"{name}.png", LARGEST)
-        print(DOCS / f"{name}.png")
+        print(draw(name))
 
 
 if __name__ == "__main__":

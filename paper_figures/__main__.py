@@ -7,14 +7,14 @@ from pathlib import Path
 
 import matplotlib
 
-from mpslab.analysis.pictures import STYLE, save_small
+from mpslab.analysis.pictures import STYLE
 from paper_figures import agreement, kept, runs, samples
 from paper_figures.keep import keep
 
 DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 FIGURES = ("fig_1", "fig_2", "fig_3", "fig_4", "fig_5", "table_1")
 HERE = Path(__file__).parent
-LARGEST = 400_000  # bytes of a picture
+DPI = 110  # of a picture
 
 
 def _parser():
@@ -61,7 +61,8 @@ def main(arguments=None):
         if options.run:
             wanted = {name for figure in figures for name in _needs(figure)}
             wanted |= set(options.only or ())
-            _make(wanted, table, methods, out, results)
+            plan = runs.read_table()["samples"][options.size]
+            _make(wanted, table, methods, plan, out, results)
         return _draw(figures, kept.read(results, table, methods), out)
     except runs.Failed as error:
         print(f"paper_figures: {error}", file=sys.stderr)
@@ -81,21 +82,23 @@ def _needs(name):
     return importlib.import_module(f"paper_figures.{name}").RUNS
 
 
-def _make(wanted, table, methods, out, results):
-    """Make runs one after the other, then the samples, and keep what the figures need of each."""
+def _make(wanted, table, methods, plan, out, results):
+    """Make the runs that are missing, then the samples, and keep what the figures need of each."""
     new = [m for name, m in methods.items()
            if name in wanted and not (results / name / samples.TABLE).exists()]  # fmt: skip
     if new:
         wanted = wanted | {runs.SAMPLED}
-    rows = [run for name, run in table.items() if name in wanted]
-    for number, run in enumerate(rows, 1):
-        target = results / run.name
-        if not (target / "water.npz").exists():
-            print(f"\nRun {number} of {len(rows)}: {run.name}, {run.title}", flush=True)
-            runs.make(run, out / run.name)
-            keep(out / run.name, target, run)
+    missing = [run for name, run in table.items()
+               if name in wanted and not (results / name / "water.npz").exists()]  # fmt: skip
+    for batch in runs.batches(missing):
+        names = " and ".join(f"{run.name}, {run.title}" for run in batch)
+        beside = f"; progress of the last in {out / batch[-1].name}.log" if batch[1:] else ""
+        print(f"\nRun {names}{beside}", flush=True)
+        runs.make_all(batch, out)
+        for run in batch:
+            keep(out / run.name, results / run.name, run)
     if new:
-        samples.take(new, out, results)
+        samples.take(new, plan, out, results)
 
 
 def _draw(figures, found, out):
@@ -110,7 +113,7 @@ def _draw(figures, found, out):
             continue
         with matplotlib.rc_context(STYLE):
             figure = importlib.import_module(f"paper_figures.{name}").draw(found)
-            save_small(figure, out / f"{name}.png", LARGEST)
+            figure.savefig(out / f"{name}.png", dpi=DPI)
         print(out / f"{name}.png")
     print(agreement.write(found, out))
     return status

@@ -111,7 +111,8 @@ def _nearest(frames, times, late=0.0):
 def _pack(arrays, name, time, position, u):
     """Positions as whole numbers between their least and largest, u in whole mm/s."""
     low, high = position.min(axis=0), position.max(axis=0)
-    whole = np.round((position - low) / (high - low) * LEVELS).astype(np.uint16)
+    extent = np.where(high > low, high - low, 1.0)
+    whole = np.round((position - low) / extent * LEVELS).astype(np.uint16)
     # Along x one after the other: so the file is smaller.
     order = np.argsort(whole[:, 0], kind="stable")
     arrays[f"{name} time"] = np.array(time)

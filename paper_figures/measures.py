@@ -26,7 +26,7 @@ def measure(time, position, velocity, spacing, width, bed):
     position, velocity : (n, 3) float [m], [m/s]
         Of the water.
     spacing, width : float [m]
-        Particle spacing and width of the tank, which is periodic.
+        Particle spacing and width of the tank, which is periodic; 0 in 2-D.
     bed : (k, 2) float [m]
         Its points x, z.
     """
@@ -55,9 +55,14 @@ def measure(time, position, velocity, spacing, width, bed):
 
 def slices(position, spacing, width):
     """Masks of the layers x-z of the water, one spacing thick, side by side across the tank."""
-    layer = np.floor(np.mod(position[:, 1], width) / spacing).astype(int)
-    for k in range(round(width / spacing)):
+    layer = np.floor(_across(position, width) / spacing).astype(int)
+    for k in range(max(round(width / spacing), 1)):
         yield layer == k
+
+
+def _across(position, width):
+    """y within the width of the tank [m], (n,); 0 in 2-D."""
+    return np.mod(position[:, 1], width) if width else np.zeros(len(position))
 
 
 def enclosed_air(position, spacing, bed):
@@ -101,7 +106,7 @@ def share_across(position, spacing, width):
     """
     column = COLUMN * spacing
     i = np.floor((position[:, 0] - position[:, 0].min()) / column).astype(int)
-    j = np.floor(np.mod(position[:, 1], width) / column).astype(int)
+    j = np.floor(_across(position, width) / column).astype(int)
     top = np.full((i.max() + 1, max(round(width / column), 1)), -np.inf)
     np.maximum.at(top, (i, np.minimum(j, top.shape[1] - 1)), position[:, 2])
     top = top[np.isfinite(top).all(axis=1)]

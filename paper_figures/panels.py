@@ -32,11 +32,11 @@ LINES = {
 
 
 def name_of(run):
-    """How a panel is headed: gradient or recipe, and particle spacing."""
+    """How a panel is headed: gradient or recipe, particle spacing, and 2-D where it is."""
     scheme = run.case["scheme"]
     names = {"mps": "MPS", "cmps": "CMPS", "cmps_soft": "CMPS"}
     recipe = names.get(scheme["gradient"], scheme["recipe"])
-    return f"{recipe}, $d_0$ = {1e3 * run.spacing:g} mm"
+    return f"{recipe}, $d_0$ = {1e3 * run.spacing:g} mm{'' if run.width else ', 2-D'}"
 
 
 def layer(water, run):
@@ -140,9 +140,10 @@ def add_u_bar(figure, axes, discs):
 
 
 def wave_of(run):
-    """The tank and wave in a line, for the heading of a figure."""
+    """Wave and tank in a line, and the size of this run, for the heading of a figure."""
     maker, particles = run.case["wavemaker"], run.record["particles"]
     return (
         f"wave H = {1e3 * maker['height']:.3g} mm, T = {maker['period']:g} s in "
-        f"{1e3 * run.case['tank']['depth']:.3g} mm of water; {sum(particles.values()):,} particles"
+        f"{1e3 * run.case['tank']['depth']:.3g} mm of water; {run.title}: "
+        f"{sum(particles.values()):,} particles"
     )

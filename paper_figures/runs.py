@@ -5,11 +5,15 @@ import shutil
 import subprocess
 import sys
 import tomllib
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import nullcontext
 from dataclasses import dataclass
+from itertools import groupby
 from pathlib import Path
 
 from mpslab import load_case
 from mpslab.core.keys import CaseError
+from mpslab.parallel.communicator import cores
 
 CASE = "plunging_breaker"
 TABLE = Path(__file__).parent / "runs.toml"
@@ -62,7 +66,7 @@ def read_runs(size):
             given["ranks"],
             table["all"] | table["size"][size] | given["set"] | given.get(size, {}),
             given.get("late", {}).get(size, 0.0),
-            tuple(table["samples"]["at"]) if name == SAMPLED else (),
+            tuple(table["samples"][size]["at"]) if name == SAMPLED else (),
         )
         for name, given in table["run"].items()
     }
@@ -95,8 +99,41 @@ def is_done(run, folder):
     return record.exists() and json.loads(record.read_text("utf-8"))["outcome"] == "finished"
 
 
-def make(run, folder):
-    """Make a run, or go on with one that was interrupted; its progress is printed.
+def batches(rows):
+    """Lists of the runs that are made at the same time.
+
+    Those on one rank that follow each other, as many as there are cores; each of the others alone.
+    """
+    for alone, group in groupby(rows, lambda run: run.ranks > 1):
+        together, most = list(group), 1 if alone else len(cores())
+        for k in range(0, len(together), most):
+            yield together[k : k + most]
+
+
+def make_all(rows, out):
+    """Make runs side by side, each in the folder of its name, as `make` does.
+
+    The first one prints its progress; the others write theirs to ``NAME.log``. After Ctrl-C, all
+    come to their checkpoint before this returns.
+    """
+    out.mkdir(parents=True, exist_ok=True)
+    logs = [None, *(out / f"{run.name}.log" for run in rows[1:])]
+    with ThreadPoolExecutor(len(rows)) as pool:
+        going = [pool.submit(make, run, out / run.name, log)
+                 for run, log in zip(rows, logs, strict=True)]  # fmt: skip
+        for one in going:
+            one.result()
+
+
+def make(run, folder, log=None):
+    """Make a run, or go on with one that was interrupted.
+
+    Parameters
+    ----------
+    run : Run
+    folder : Path
+    log : Path, optional
+        Where its progress is written to; left out, it is printed.
 
     Raises
     ------
@@ -108,25 +145,30 @@ def make(run, folder):
     for time in run.stops:
         state = state_of(folder, time)
         if not state.exists():
-            _go_on(run, folder, "--until", str(time))
+            _go_on(run, folder, log, "--until", str(time))
             _leave(folder, state)
-    _go_on(run, folder)
+    _go_on(run, folder, log)
 
 
-def _go_on(run, folder, *until):
+def _go_on(run, folder, log, *until):
     if (folder / "checkpoint.h5").exists():
         what = ["--resume", str(folder)]
     else:
         what = [CASE, "--out", str(folder)]
         what += [f"--set={key}={_toml(value)}" for key, value in run.changes.items()]
-    tank(run.ranks, *what, *until)
+    with log.open("a", encoding="utf-8") if log else nullcontext() as file:
+        tank(run.ranks, *what, *until, output=file)
 
 
-def tank(ranks, *arguments):
-    """Call ``python -m mpslab.tank`` on so many ranks; Failed if it ends before its time."""
+def tank(ranks, *arguments, output=None):
+    """Call ``python -m mpslab.tank`` on so many ranks; Failed if it ends before its time.
+
+    output : open file, optional
+        Takes what it prints.
+    """
     line = [sys.executable, "-m", "mpslab.tank", "--no-pictures"]
     line += ["--ranks", str(ranks)] if ranks > 1 else []
-    if subprocess.run([*line, *arguments], check=False).returncode:
+    if subprocess.run([*line, *arguments], stdout=output, check=False).returncode:
         raise Failed(f"'{' '.join(arguments)}' has stopped; the same command goes on with it")
 
 

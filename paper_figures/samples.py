@@ -49,19 +49,20 @@ def read_methods():
     }
 
 
-def take(methods, out, results):
+def take(methods, plan, out, results):
     """Let methods do their steps from each state, in turn, and keep what is asked of them.
 
     Parameters
     ----------
     methods : list of Method
         Those that have no results.
+    plan : dict
+        ``at``, the times of the states [s], and ``steps``, how many steps at least.
     out : Path
         Folder of the runs.
     results : Path
         Each method gets a folder there: ``run.json``, ``samples.csv`` and ``tops.npz``.
     """
-    plan = runs.read_table()["samples"]
     rows, tops = {m.name: [] for m in methods}, {m.name: {} for m in methods}
     for time in plan["at"]:
         state = runs.state_of(out / runs.SAMPLED, time)

@@ -88,7 +88,9 @@ def test_all_runs_are_cases_of_the_papers_tank(size):
     for run in table.values():
         case = run.case
         assert (case.tank.length, case.tank.depth) == (0.8, 0.04)
-        assert case.time.end == 1.4
+        early = size == "quick" and case.scheme.recipe == "standard"  # as the paper's runs
+        assert case.time.end == (1.25 if early else 1.4)
+        assert case.time.end >= fig_2.SPLASH_UP + run.late
         assert (case.wavemaker.height, case.wavemaker.period) == (0.0196, 0.777)
     assert table["mps"].case.scheme.gradient == "mps"
     assert table["cmps"].case.scheme.recipe == "paper"
@@ -100,6 +102,14 @@ def test_all_runs_are_cases_of_the_papers_tank(size):
 def test_all_runs_that_a_figure_needs_are_in_the_table():
     for figure in FIGURES.values():
         assert set(figure.RUNS) <= {*runs.read_runs("full"), *samples.read_methods()}
+
+
+def test_in_2d_all_water_is_one_layer_and_none_of_its_surface_is_across():
+    water = block(30, 1, 20)
+    water[:, 1] = 0.0
+    assert [one.all() for one in measures.slices(water, D0, 0.0)] == [True]
+    slope = water[water[:, 2] < 0.5 * water[:, 0] + 0.01]
+    assert measures.share_across(slope, D0, 0.0) == 0.0
 
 
 @pytest.fixture(scope="module")
@@ -134,6 +144,28 @@ def test_what_is_kept_is_the_run(tiny):
             assert share.sum() == pytest.approx(1.0) and work.sum() == pytest.approx(1.0)
 
 
+def test_runs_on_one_rank_are_made_side_by_side(monkeypatch, tmp_path, capfd):
+    changes = {"particles.spacing": 0.01, "tank.width": 0.0, "time.end": 0.004}
+    one, two, three = (runs.Run(name, name, 1, changes) for name in ("one", "two", "three"))
+    wide = runs.Run("wide", "wide", 2, changes)
+    monkeypatch.setattr(runs, "cores", lambda: {0, 1})
+    rows = [one, two, three, wide, wide]
+    assert list(runs.batches(rows)) == [[one, two], [three], [wide], [wide]]
+    out = tmp_path / "out"
+    runs.make_all([one, two], out)
+    assert runs.is_done(one, out / "one") and runs.is_done(two, out / "two")
+    assert capfd.readouterr().out.count("Done:") == 1
+    assert (out / "two.log").read_text().count("Done:") == 1
+
+
+def test_a_run_that_stops_is_named_after_the_one_beside_it_has_ended(tmp_path):
+    changes = {"particles.spacing": 0.01, "tank.width": 0.0, "time.end": 0.004}
+    bad, good = runs.Run("bad", "bad", 1, {"time.end": -1.0}), runs.Run("good", "good", 1, changes)
+    with pytest.raises(runs.Failed, match="bad"):
+        runs.make_all([bad, good], tmp_path)
+    assert runs.is_done(good, tmp_path / "good")
+
+
 def test_a_folder_with_another_run_is_refused(tiny):
     folder = tiny[2]
     with pytest.raises(runs.Failed, match="holds another run than 'cmps'"):
@@ -149,8 +181,14 @@ def found():
     return kept.read(RESULTS, runs.read_runs(SIZE), samples.read_methods())
 
 
+@pytest.fixture(scope="module")
+def drawn(found):
+    """Each figure, from the kept results."""
+    return {name: module.draw(found) for name, module in FIGURES.items()}
+
+
 def words(figure):
-    """All texts of a figure that are not empty."""
+    """All texts of a figure, or of a panel, that are not empty."""
     return [text.get_text() for text in figure.findobj(Text) if text.get_text()]
 
 
@@ -158,50 +196,125 @@ def panels(figure):
     return [ax for ax in figure.axes if ax.get_title(loc="left")]
 
 
+def flat(figure):
+    """The panels that have axes."""
+    return [ax for ax in panels(figure) if ax.axison]
+
+
+def scenes(figure):
+    """The panels in perspective."""
+    return [ax for ax in panels(figure) if not ax.axison]
+
+
+def labels(ax):
+    return ax.get_xlabel(), ax.get_ylabel()
+
+
+def title(found, name, time):
+    """How a panel is headed that shows a run at a time of a wave that is not late [s]."""
+    recipe = {"mps": "MPS", "cmps": "CMPS"}.get(name, "standard")
+    spacing = 1e3 * found[name].spacing
+    kind = "" if found[name].width else ", 2-D"
+    return f"{recipe}, $d_0$ = {spacing:g} mm{kind}, t = {time + found[name].late:.2f} s"
+
+
+def titles(axes):
+    return [ax.get_title(loc="left") for ax in axes]
+
+
 @pytest.mark.parametrize("name", FIGURES)
-def test_every_figure_is_drawn_with_its_caption_and_a_unit_on_each_axis(found, name):
-    figure = FIGURES[name].draw(found)
-    assert any(FIGURES[name].CAPTION in text for text in words(figure))
-    for ax in panels(figure):
-        for label in (ax.get_xlabel(), ax.get_ylabel()):
-            assert label == "" or "[" in label or label in ("time step", "iterations of a step")
+def test_every_figure_has_its_caption(drawn, name):
+    assert any(FIGURES[name].CAPTION in text for text in words(drawn[name]))
+
+
+def test_figure_1_shows_three_runs_just_before_the_jet_and_at_it(drawn, found):
+    times = (fig_1.BEFORE, fig_1.JET)
+    wanted = [title(found, name, time) for name in fig_1.RUNS for time in times]
+    assert titles(flat(drawn["fig_1"])) == wanted
+    assert titles(scenes(drawn["fig_1"])) == wanted[1::2]
+
+
+def test_figure_2_shows_four_runs_at_touch_down_and_splash_up(drawn, found):
+    times = (fig_2.TOUCH_DOWN, fig_2.SPLASH_UP)
+    wanted = [title(found, name, time) for name in fig_2.RUNS for time in times]
+    assert titles(panels(drawn["fig_2"])) == titles(flat(drawn["fig_2"])) == wanted
+    assert found["fine"].spacing == 0.5 * found["standard"].spacing
+
+
+def test_figure_3_shows_the_surface_at_the_jet_and_after_it_and_its_variance(drawn, found):
+    wanted = [title(found, name, time) for time in fig_3.TIMES for name in fig_3.SEEN]
+    assert titles(scenes(drawn["fig_3"])) == wanted
+    (below,) = flat(drawn["fig_3"])
+    assert labels(below) == ("t [s]", "variance across\nthe tank / all [-]")
+    for name, line in zip(fig_3.RUNS, below.lines, strict=True):
+        assert title(found, name, 0.0).startswith(line.get_label())
+        times, share = (found[name].series[of] for of in ("time [s]", "share across the tank"))
+        assert np.array_equal(line.get_xydata(), np.transpose([times, share]))
+        assert times[0] < fig_3.TIMES[0] + found[name].late
+        assert times[-1] >= fig_3.TIMES[-1] + found[name].late - 1e-3
 
 
 @pytest.mark.parametrize("name", ["fig_1", "fig_2"])
-def test_slices_show_each_run_at_both_times_on_one_scale(found, name):
-    module = FIGURES[name]
-    figure = module.draw(found)
-    times = (fig_1.BEFORE, fig_1.JET) if name == "fig_1" else (fig_2.TOUCH_DOWN, fig_2.SPLASH_UP)
-    titles = [ax.get_title(loc="left") for ax in panels(figure)]
-    for recipe, run in (("MPS", "mps"), ("CMPS", "cmps"), ("standard", "standard")):
-        for time in times:
-            at = f"t = {time + found[run].late:.2f} s"
-            assert any(t.startswith(f"{recipe},") and at in t for t in titles)
-    flat = [ax for ax in panels(figure) if ax.axison]  # not those in perspective
-    sizes = {(round(np.ptp(ax.get_xlim()), 9), ax.get_ylim()) for ax in flat}
+def test_slices_show_water_in_metres_on_one_scale(drawn, name):
+    for ax in flat(drawn[name]):
+        assert labels(ax) == ("x [m]", "z [m]")
+        (discs,) = (one for one in ax.collections if one.get_array() is not None)
+        place, (left, right) = discs.get_offsets(), ax.get_xlim()
+        assert np.count_nonzero((place[:, 0] > left) & (place[:, 0] < right)) > 100
+    sizes = {(round(np.ptp(ax.get_xlim()), 9), ax.get_ylim()) for ax in flat(drawn[name])}
     assert len(sizes) == 1
-    assert any("u [m/s]" in text for text in words(figure))
 
 
-def test_figure_4_tells_the_share_of_each_rank(found):
-    figure = fig_4.draw(found)
-    titles = [ax.get_title(loc="left") for ax in panels(figure)]
-    for method in METHODS:
-        for time in CUTS:
-            assert any(t.startswith(method) and f"t = {time:.2f} s" in t for t in titles)
-    for ax in panels(figure):
+@pytest.mark.parametrize("name", ["fig_1", "fig_3"])
+def test_scenes_show_water_and_tell_where_it_is(drawn, found, name):
+    wide = {f"y: 0 to {found[run].width:g} m" for run in FIGURES[name].RUNS}
+    for ax in scenes(drawn[name]):
+        assert "x [m]" in words(ax) and wide & {*words(ax)}
+        (picture,) = ax.images
+        coloured = np.ptp(picture.get_array().astype(int), axis=-1) > 60  # white and bed are not
+        assert coloured.mean() > 0.1
+
+
+@pytest.mark.parametrize("name", ["fig_1", "fig_2", "fig_3"])
+def test_the_colours_of_the_water_are_told(drawn, name):
+    assert "velocity along the tank, u [m/s]" in words(drawn[name])
+
+
+def test_figure_4_tells_the_share_of_each_rank(drawn):
+    axes = panels(drawn["fig_4"])
+    wanted = [(method, time) for method in METHODS for time in CUTS]
+    for ax, (method, time) in zip(axes, wanted, strict=True):
+        text = ax.get_title(loc="left")
+        assert text.startswith(method) and f"t = {time:.2f} s" in text
+        assert ax.get_ylabel() == "z [m]"
         shares = [float(text.get_text()) for text in ax.texts]
         assert len(shares) == RANKS and sum(shares) == pytest.approx(100.0, abs=0.5)
+        (discs,) = (one for one in ax.collections if one.get_array() is not None)
+        assert len(np.unique(discs.get_array())) > RANKS // 2  # the beach is dry
+    assert axes[-1].get_xlabel() == "x [m]"
 
 
-def test_figure_5_has_a_line_for_each_method_in_both_panels(found):
-    seconds, iterations = panels(fig_5.draw(found))
+def test_figure_5_has_a_line_for_each_method_in_both_panels(drawn, found):
+    seconds, iterations = panels(drawn["fig_5"])
+    assert titles([seconds, iterations]) == ["(a)", "(b)"]
     for ax, column in ((seconds, "seconds"), (iterations, "iterations")):
         lines = [line for line in ax.lines if not line.get_label().startswith("_")]
         assert [line.get_label() for line in lines] == [found[n].title for n in fig_5.RUNS]
         for name, line in zip(fig_5.RUNS, lines, strict=True):
             assert np.array_equal(line.get_ydata(), found[name].middle(column))
-    assert "[s]" in seconds.get_ylabel()
+    assert seconds.get_ylabel() == "time of a step [s]"
+    assert labels(iterations) == ("time step", "iterations of a step")
+    assert {found[name].title for name in fig_5.RUNS} <= {*words(drawn["fig_5"])}
+
+
+def test_table_1_tells_time_steps_and_times_beside_the_papers(drawn, found):
+    (table,) = drawn["table_1"].axes[0].tables
+    cells = {place: cell.get_text().get_text() for place, cell in table.get_celld().items()}
+    head = [cells[0, column] for column in range(len(table_1.HEADER))]
+    assert head == list(table_1.HEADER)
+    assert sum("[s]" in text for text in head) == 5
+    first = [cells[row, 0] for row in range(1, len(table_1.METHODS) + 2)]
+    assert first == [found[name].title for name in (*table_1.METHODS, "standard")]
 
 
 def test_table_1_adds_up(found):
@@ -276,10 +389,12 @@ def test_claims_on_cost_turn_with_the_numbers():
 # The command line
 
 
-def test_pictures_are_drawn_from_kept_results(tmp_path, capsys):
-    assert command.main(["--quick", "--out", str(tmp_path), "--only", "table_1"]) == 0
-    assert (tmp_path / "table_1.png").stat().st_size > 10_000
-    assert "table_1.png" in capsys.readouterr().out
+def test_all_pictures_are_drawn_from_kept_results(tmp_path, capsys):
+    assert command.main(["--quick", "--out", str(tmp_path)]) == 0
+    said = capsys.readouterr().out
+    for name in command.FIGURES:
+        assert (tmp_path / f"{name}.png").stat().st_size > 50_000
+        assert f"{name}.png" in said
 
 
 def test_an_unknown_name_is_refused(tmp_path, capsys):
@@ -300,7 +415,7 @@ def test_a_figure_whose_runs_are_missing_is_named(tmp_path, capsys):
 
 def test_run_makes_what_is_missing_and_nothing_twice(tmp_path, monkeypatch, tiny):
     made = []
-    monkeypatch.setattr(runs, "make", lambda run, folder: made.append(run.name))
+    monkeypatch.setattr(runs, "make", lambda run, folder, log: made.append(run.name))
     monkeypatch.setattr(command, "keep", lambda folder, target, run: shutil.copytree(
         tiny[1].folder, target))  # fmt: skip
     line = ["--out", str(tmp_path), "--run", "--quick", "--only", "mps", "--only", "fine"]
@@ -308,17 +423,15 @@ def test_run_makes_what_is_missing_and_nothing_twice(tmp_path, monkeypatch, tiny
     assert command.main(line) == 0 and made == ["mps", "fine"]
 
 
-def test_methods_go_on_from_the_states_of_a_run_and_are_kept(tmp_path, monkeypatch):
+def test_methods_go_on_from_the_states_of_a_run_and_are_kept(tmp_path):
     changes = {"particles.spacing": 0.01, "tank.width": 0.08, "time.end": 0.04,
                "output.interval": 0.02, "scheme.recipe": "paper"}  # fmt: skip
     run = runs.Run("cmps", "CMPS", 1, changes, stops=(0.01, 0.02))
-    plan = runs.read_table() | {"samples": {"at": run.stops, "steps": 3}}
-    monkeypatch.setattr(runs, "read_table", lambda: plan)
     runs.make(run, tmp_path / "cmps")
     assert runs.is_done(run, tmp_path / "cmps")
     methods = [samples.read_methods()[name] for name in ("iccg", "deflated")]
     methods = [replace(method, ranks=1) for method in methods]
-    samples.take(methods, tmp_path, tmp_path / "results")
+    samples.take(methods, {"at": run.stops, "steps": 3}, tmp_path, tmp_path / "results")
     found = kept.read(tmp_path / "results", {}, {one.name: one for one in methods})
     for method in found.values():
         assert method.states.tolist() == [0.01, 0.02]
