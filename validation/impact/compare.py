@@ -29,15 +29,15 @@ SPEED = 1.5  # [m/s] the darkest in the picture
 
 def compare(runs):
     """Times, peaks and impulses of the two impacts, the rise before them, and energy."""
-    result, record = Comparison(), _Record()
+    result, record = Comparison(), Record()
     figures = {name: _figure(result, record, name) for name in (*HITS, "rise")}
     rows = [record.row()]
     for name, run in runs.items():
-        found = _Sensor(run)
-        energy = [_gain(run, found.hits[hit]) for hit in HITS]
+        found = Sensor(run)
+        energy = [gain(run, found.hits[hit]) for hit in HITS]
         for part, figure in figures.items():
-            figure.line(_label(name, run), *found.part(part))
-        rows.append([_label(name, run), *found.row(), *energy])
+            figure.line(_label(run), *found.part(part))
+        rows.append([_label(run), *found.row(), *energy])
         if name == JUDGED:
             _measure(result, record, found, energy)
             _hold(result, record, found)
@@ -49,7 +49,7 @@ def compare(runs):
     return result
 
 
-class _Record:
+class Record:
     """The record of sensor 1: least and largest pressure in each bin of 5 ms, and their middle."""
 
     def __init__(self):
@@ -81,7 +81,7 @@ class _Record:
                 self.rise(), np.nan, np.nan]  # fmt: skip
 
 
-class _Sensor:
+class Sensor:
     """What the sensor of a run reads, and when the water hits it."""
 
     def __init__(self, run):
@@ -140,7 +140,7 @@ def _measure(result, record, found, energy):
     first = record.impulse(HITS["first"], RUN_UP)
     result.measure("run_up", found.impulse("first", RUN_UP) / first)
     result.measure("rise", found.rise() / record.rise())
-    result.measure("energy", max(energy))
+    result.measure("energy", np.max(energy))
 
 
 def _hold(result, record, found):
@@ -149,11 +149,11 @@ def _hold(result, record, found):
                 pressures[1])  # fmt: skip
     at = HITS["first"]
     time, pressures = record.part(at + 0.02, at + RUN_UP)
-    result.hold("pressure at sensor 1, 0.02 to 0.45 s from the first impact, aligned [Pa], [s]",
-                found.time - found.hits["first"], found.pressure, time - at, pressures[1])  # fmt: skip
+    label = "pressure at sensor 1, 0.02 to 0.45 s from the first impact, aligned [Pa], [s]"
+    result.hold(label, found.time - found.hits["first"], found.pressure, time - at, pressures[1])
 
 
-def _gain(run, hit):
+def gain(run, hit):
     """Kinetic energy from nowhere about a hit, over what there was: gained, less what forces did.
 
     Forces are gravity and the inertia in the frame of the tank; its walls do no work.
@@ -169,14 +169,14 @@ def _gain(run, hit):
     return (energy[-1] - energy[0] - np.trapezoid(power, time)) / energy[0]
 
 
-def _label(name, run):
+def _label(run):
     return run.label + (", smooth walls" if run.case.scheme.smooth_walls else "")
 
 
 def _figure(result, record, name):
     if name == "rise":
         figure = result.figure("Sensor 1, first rise", "time [s]", "pressure [Pa]")
-        time, pressures, at = *record.part(*GENTLE), 0.0
+        time, pressures = record.part(*GENTLE)
         figure.points("record", time, pressures[1])
         return figure
     title = f"Sensor 1, {name} impact, means over 1 ms, impacts aligned"
