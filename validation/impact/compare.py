@@ -24,7 +24,7 @@ BLOW, RUN_UP = 0.1, 0.45  # seconds from the hit on
 GENTLE = (0.3, 1.35)  # [s] the first rise, without an impact
 BIN = 5e-3  # [s] of the record
 ABOUT = 0.1  # seconds before and after a hit, between which energy is looked at
-SPEED = 1.5  # [m/s] the darkest in the picture
+SPEED = 1.5  # [m/s] the brightest in the picture
 
 
 def compare(runs):
@@ -41,7 +41,8 @@ def compare(runs):
         if name == JUDGED:
             _measure(result, record, found, energy)
             _hold(result, record, found)
-            result.picture("The first impact", _picture(run, found.hits["first"]))
+            if np.isfinite(found.hits["first"]):
+                result.picture("The first impact", _picture(run, found.hits["first"]))
     columns = ["run", "impact 1 [s]", "peak [kPa]", "0.1 s [Pa s]", "0.45 s [Pa s]", "impact 2 [s]",
                "peak [kPa]", "0.1 s [Pa s]", "rise before [Pa s]", "energy gained, impact 1",
                "impact 2"]  # fmt: skip
