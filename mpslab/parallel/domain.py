@@ -279,9 +279,13 @@ class Domain:
             self._wait([self.comm.Iallreduce(values, total)])
         return total
 
-    def total(self, values):
-        """Sum of (n,) values over the particles of all ranks, slab by slab."""
-        return self.add(np.bincount(self.slab, values, minlength=self.slabs.count))
+    def total(self, values, rows=None):
+        """Sum of values over the particles of all ranks, slab by slab.
+
+        values : (n,), or (m,) of the particles that `rows` (m,) int picks
+        """
+        slab = self.slab if rows is None else self.slab.take(rows)
+        return self.add(np.bincount(slab, values, minlength=self.slabs.count))
 
     def totals(self, *parts):
         """As `total`, column by column, of values that some particles have, (k,).
