@@ -43,7 +43,7 @@ def settle(flow):
     _close(flow, count)
     move = np.zeros_like(flow.particles.position)
     for turn in range(flow.case.scheme.settling):
-        flow.particles, (move,) = domain.share_out(flow.particles, move)
+        flow.particles, (move,) = domain.share_out(flow.particles, move, idle=flow.idle)
         step.find_neighbors(flow)
         step.measure(flow)
         step.find_surface(flow)
@@ -52,8 +52,7 @@ def settle(flow):
         shift = _shift(flow)
         move = _capped(shift + (MOMENTUM if turn >= CALM else 0.0) * move, flow.stencil.spacing)
         _displace(flow, move)
-        shift, move = shift[domain.owned], move[domain.owned]
-        flow.particles = domain.without_ghosts(flow.particles)
+        flow.particles, (shift, move) = domain.without_ghosts(flow.particles, shift, move)
         if turn >= CALM and _rms(flow, shift) <= SETTLED * flow.stencil.spacing:
             break
     flow.particles = domain.keep(flow.particles, flow.particles.gid < count)
