@@ -96,7 +96,7 @@ class Domain:
         self.cuts = balance.cut("static", np.zeros(slabs.count), self.size)
         self.slab, self.owned = np.zeros(0, np.int32), slice(0, 0)
         self.stopwatch, self.migrated, self.ghosts = Stopwatch(), 0, 0
-        self.aside = no_particles()
+        self.aside = self._whole = no_particles()
         self._halo = []
 
     @property
@@ -148,47 +148,51 @@ class Domain:
         Returns
         -------
         particles : ParticleSet in the order of the cells, ghosts among them
+            Its arrays are to be changed in place.
         companions : list of arrays
         """
         arrays, count = [*arrays_of(particles), *companions], len(fields(ParticleSet))
         if self.size > 1:
             arrays = self._share(arrays)
-        order = self._in_order(self._put_aside(ParticleSet(*arrays[:count]), idle), arrays)
-        arrays = [_ordered(a, order) for a in arrays]
-        self._find_halo(self._slab_of(arrays))
-        return ParticleSet(*arrays[:count]), arrays[count:]
+        off = self._out_of_it(ParticleSet(*arrays[:count]), idle)
+        order = self._in_order(np.flatnonzero(~off).astype(np.int32), arrays)
+        last = np.append(order, np.flatnonzero(off).astype(np.int32))
+        self._whole = ParticleSet(*(_ordered(a, last) for a in arrays[:count]))
+        self.aside = self._whole.take(slice(len(order), None))
+        particles = self._whole.take(slice(0, len(order)))
+        self._find_halo(self.slabs.of(particles.position[:, 0]))
+        return particles, [_ordered(a, order) for a in arrays[count:]]
 
-    def _put_aside(self, particles, idle):
-        """Put those aside that are idle; returns the rows of the others, (m,) int32."""
-        self.aside = particles.take(slice(0, 0))
+    def _out_of_it(self, particles, idle):
+        """Mask of the particles that are put aside, (n,) bool."""
         if idle is None:
-            return np.arange(len(particles), dtype=np.int32)
+            return np.zeros(len(particles), bool)
         off = idle(particles)
         if self.size > 1:
             slab = self.slabs.of(particles.position[:, 0])
             for r in (self.rank, *self._beside()):
                 off &= ~self._seen_by(r, slab)
-        self.aside = particles.take(off)
-        return np.flatnonzero(~off).astype(np.int32)
+        return off
 
     def _in_order(self, rows, arrays):
         """Rows (m,) int32 of the arrays, in the order of the cells."""
         return rows.take(self.cells.order(*(_ordered(arrays[k], rows) for k in (POSITION, GID))))
 
     def without_ghosts(self, particles, *companions):
-        """The particles that this rank owns, those put aside last.
+        """The particles of a step that this rank owns, and behind them those put aside.
 
         With companions (n, ...) a list of these as well, zero for what was put aside.
         """
+        more = len(self.aside)
         if self.ghosts:
             companions = [a[self.owned] for a in companions]
             particles = self.keep(particles, self.owned)
-        if len(self.aside):
-            more = len(self.aside)
+            self._whole = joined(particles, self.aside)
+        if more:
             companions = [np.concatenate([a, np.zeros((more, *a.shape[1:]))]) for a in companions]
-            particles = joined(particles, self.aside)
+            particles = self._whole
             self.slab = np.append(self.slab, self.slabs.of(self.aside.position[:, 0]))
-            self.owned, self.aside = slice(0, len(self.slab)), self.aside.take(slice(0, 0))
+            self.owned, self.aside = slice(0, len(self.slab)), no_particles()
         return (particles, companions) if companions else particles
 
     def keep(self, particles, rows):
