@@ -54,6 +54,7 @@ INLINE four plus(four sum, double factor, four v) { return sum + factor * v; }
 
 /* Nearest image of a distance across the tank; width = 0 means no periodicity. */
 INLINE four nearest(four v, double width) {
+    if (!(width > 0.0)) return v;
     four half = {0.5 * width, 0.5 * width, 0.5 * width, 0.5 * width};
     four_masks period = (four_masks)(four){0.0, width, 0.0, 0.0};
     return v - (four)((v > half) & period) + (four)((v < -half) & period);
@@ -94,9 +95,11 @@ ROW_SUM(row_of_doubles, double, load)
 
 /* Which of four places, less another one, are nearer than the root of the limit: a bit each. */
 INLINE int near_four(four x, four y, four z, double limit, double width) {
-    four half = {0.5 * width, 0.5 * width, 0.5 * width, 0.5 * width};
-    four_masks period = (four_masks)(half + half);
-    y = y - (four)((y > half) & period) + (four)((y < -half) & period);
+    if (width > 0.0) {
+        four half = {0.5 * width, 0.5 * width, 0.5 * width, 0.5 * width};
+        four_masks period = (four_masks)(half + half);
+        y = y - (four)((y > half) & period) + (four)((y < -half) & period);
+    }
     four square = x * x + y * y + z * z;
     four_masks near = square < limit;
 #ifdef __AVX__
