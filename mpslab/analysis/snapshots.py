@@ -129,11 +129,11 @@ def _front(piece, spacing):
 def _moment(fronts):
     """Number and front of the first frame with a jet; if none has one, with an upright front."""
     upright = None
-    for found in enumerate(fronts):
-        front = found[1]
+    for number, front in enumerate(fronts):
         if front and front.overturns:
-            return found
-        upright = upright or (found if front else None)
+            return number, front
+        if front and upright is None:
+            upright = number, front
     return upright
 
 

@@ -68,26 +68,26 @@ INLINE four gathered(const double *x, const int *at) {
 /* Sum of value times x at its place over the entries of a row, four at a time.
 
    There are `room` entries from the row's first on.  So that the end of a row needs no loop of its
-   own, up to three of what is behind it are read as well, and count for nothing. */
-#define ROW_SUM(name, number, taken)                                                    \
-    INLINE double name(const number *value, const int *place, const double *x,          \
-                       long count, long room) {                                         \
-        four sum = nothing();                                                           \
-        long k = 0;                                                                     \
-        for (; k + 4 <= count; k += 4) sum += taken(value + k) * gathered(x, place + k); \
-        number last[4] = {0, 0, 0, 0};                                                  \
-        int where[4] = {0, 0, 0, 0};                                                    \
-        if (k + 4 > room) {                                                             \
-            for (long e = 0; k + e < count; e++) {                                      \
-                last[e] = value[k + e];                                                 \
-                where[e] = place[k + e];                                                \
-            }                                                                           \
-            sum += taken(last) * gathered(x, where);                                    \
-        } else {                                                                        \
-            four_masks wanted = (four_masks){0, 1, 2, 3} < count - k;                   \
+   own, up to four of what is behind it are read as well, and count for nothing. */
+#define ROW_SUM(name, number, taken)                                                       \
+    INLINE double name(const number *value, const int *place, const double *x,             \
+                       long count, long room) {                                            \
+        four sum = nothing();                                                              \
+        long k = 0;                                                                        \
+        for (; k + 4 <= count; k += 4) sum += taken(value + k) * gathered(x, place + k);   \
+        number last[4] = {0, 0, 0, 0};                                                     \
+        int where[4] = {0, 0, 0, 0};                                                       \
+        if (k + 4 > room) {                                                                \
+            for (long e = 0; k + e < count; e++) {                                         \
+                last[e] = value[k + e];                                                    \
+                where[e] = place[k + e];                                                   \
+            }                                                                              \
+            sum += taken(last) * gathered(x, where);                                       \
+        } else {                                                                           \
+            four_masks wanted = (four_masks){0, 1, 2, 3} < count - k;                      \
             sum += (four)((four_masks)taken(value + k) & wanted) * gathered(x, place + k); \
-        }                                                                               \
-        return (sum[0] + sum[1]) + (sum[2] + sum[3]);                                   \
+        }                                                                                  \
+        return (sum[0] + sum[1]) + (sum[2] + sum[3]);                                      \
     }
 
 ROW_SUM(row_of_singles, float, widened)

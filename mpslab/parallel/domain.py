@@ -190,7 +190,7 @@ class Domain:
             self._whole = joined(particles, self.aside)
         if more:
             companions = [np.concatenate([a, np.zeros((more, *a.shape[1:]))]) for a in companions]
-            particles = self._whole
+            particles, self._whole = self._whole, no_particles()
             self.slab = np.append(self.slab, self.slabs.of(self.aside.position[:, 0]))
             self.owned, self.aside = slice(0, len(self.slab)), no_particles()
         return (particles, companions) if companions else particles
