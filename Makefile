@@ -29,8 +29,8 @@ test: .venv/tested lint
 # These lead into every function of the kernels, most on some hundred particles.  What starts
 # processes of its own, as runs from the command line do, has the usual kernels there.
 CHECKED := $(patsubst %,tests/test_%.py,cells copied deflation determinism forces friction gauges \
-  gradients laplacians neighbors neighbourhood pressure solvers sources stabilisers step surface \
-  viscosity walls)
+  gradients laplacians neighbors neighbourhood pressure rows solvers sources stabilisers step \
+  surface viscosity walls)
 build-checked: build/checked/built
 build/checked/built: .venv/tested $(SOURCES) $(shell find mpslab -name '*.py')
 	MPSLAB_CHECKED=1 $(BIN)/python -m pip install -q --no-deps --upgrade --target build/checked .

@@ -25,6 +25,26 @@ def by_cell_and_gid(cells, position, gid):
 
 
 @EXAMPLES
+@given(st.booleans(), st.integers(0, 10**6))
+def test_near_finds_all_that_are_within_a_radius_and_few_far_away(periodic, seed):
+    radius, width = 0.1, 0.43
+    _, cells = cells_of(0.0, 2.0, radius, width if periodic else 0.0)
+    random = np.random.default_rng(seed)
+    position = random.uniform([-0.1, 0.0, -0.1], [2.1, width, 1.1], (300, 3))
+    others = np.arange(300) < 5
+    ones = random.random(300) < 0.7
+    gap = np.abs(position[:, np.newaxis] - position[others])
+    if periodic:
+        gap[..., 1] = np.minimum(gap[..., 1], width - gap[..., 1])
+    within = np.linalg.norm(gap, axis=2).min(axis=1) < radius
+    found = cells.near(position, ones, others)
+    assert not np.any(found & ~ones)
+    assert np.all(found[ones & within])
+    far = np.abs(position[:, np.newaxis, 0] - position[others, 0]).min(axis=1) > 6 * radius
+    assert not np.any(found[far])
+
+
+@EXAMPLES
 @given(st.floats(-1, 1), st.floats(0.2, 3), st.integers(0, 10**6))
 def test_order_is_by_slab_then_by_cell_then_by_gid(lower, length, seed):
     slabs, cells = cells_of(lower, length, 0.1)

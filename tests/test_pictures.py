@@ -2,8 +2,10 @@
 
 import tomllib
 
+import matplotlib
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.image import imread
 from synthetic import write_run
 from tanks import open_tables
@@ -75,6 +77,19 @@ def test_every_picture_says_what_was_run(folder, case):
         for words in ("drawn: Plunging breaker", "2-D", "$d_0$ = 4 mm", "H = 30 mm, T = 0.777 s",
                       "recipe standard with gradient mps, smagorinsky 0.12"):  # fmt: skip
             assert words in text_of(figure), words
+
+
+@pytest.mark.parametrize("title", ["short", "a long title that goes on and on " * 8])
+def test_nothing_stands_beyond_the_edge_of_the_page(folder, case, title):
+    run = open_run(folder.path)
+    case["title"] = title
+    run.tables = case
+    with matplotlib.rc_context(pictures.STYLE):
+        for name, figure in pictures._figures(run):
+            seen = figure.get_tightbbox(FigureCanvasAgg(figure).get_renderer())
+            page = figure.get_size_inches()
+            assert np.all(seen.min >= 0.0) and np.all(seen.max <= page), name
+            assert seen.ymin < 0.3 and seen.ymax > page[1] - 0.3, f"{name}: empty edges"
 
 
 @pytest.mark.parametrize(

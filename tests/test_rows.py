@@ -55,6 +55,18 @@ def test_particles_near_places_are_found_once_each(places):
     np.testing.assert_array_equal(found, np.flatnonzero(far < 0.11))
 
 
+@pytest.mark.parametrize("width", [0.0, 1.0])
+@pytest.mark.parametrize("reach", [(0.2, 0.2, 0.2), (0.1, 0.3, np.inf), (0.3, np.inf, np.inf)])
+def test_particles_beside_points_are_found_once_each(reach, width):
+    particles = particles_at(RANDOM.uniform(0.0, 1.0, (N, 3)))
+    points = [(0.3, 0.05, 0.5), (0.35, 0.1, 0.6), (0.9, 0.5, 0.0)]
+    found = _near.beside(particles, points, reach, width)
+    apart = np.abs(particles.position[:, np.newaxis] - points)
+    if width:
+        apart[..., 1] = np.minimum(apart[..., 1], width - apart[..., 1])
+    np.testing.assert_array_equal(found, np.flatnonzero((apart < reach).all(axis=2).any(axis=1)))
+
+
 @pytest.mark.parametrize("bed", [[], [[0.0, 0.0], [0.01, 0.0], [0.03, 0.01], [0.04, 0.003]]])
 @pytest.mark.parametrize("width", [0.0, 0.02])
 def test_all_that_is_outside_is_looked_at_and_little_else(bed, width):

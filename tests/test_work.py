@@ -26,10 +26,11 @@ PAIRS = {
 ENTRIES = {"poisson.reach": 1, "coarse.by_group": 1, "coarse.couple": 1, "coarse.factorise": 1}
 # over all particles, or over few pairs,
 PARTICLES = {
-    "cells.assign": 2, "cells.count": 2, "cells.sort": 1, "cells.ascend": 1, "vectors.take": 4,
+    "cells.assign": 2, "cells.count": 2, "cells.sort": 1, "cells.ascend": 1, "cells.mark": 1,
+    "cells.marked": 1, "vectors.take": 5,
     "vectors.pad": 3, "vectors.add": 3, "vectors.put": 1, "moments.invert": 1,
     "density.thin_or_lopsided": 1, "density.beside": 1, "repulsion.moved": 2,
-    "repulsion.overlap": 2, "tank.outside": 1, "column.within": 2, "coarse.spread": 1,
+    "repulsion.overlap": 2, "tank.outside": 1, "column.beside": 2, "coarse.spread": 1,
 }  # fmt: skip
 # and what else a case asks for: eddies, or 13 gauges.
 ASKED = {

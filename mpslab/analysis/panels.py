@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.collections import EllipseCollection
 from matplotlib.colors import Normalize
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from mpslab.analysis import sheet
 from mpslab.analysis.headings import heading
 from mpslab.core.kinds import DUMMY, GATE, GATE_DUMMY, PISTON, PISTON_DUMMY, WALL
 
@@ -33,7 +33,7 @@ BACKWARD = 0.5  # the colours of velocity along the tank begin at this share of 
 ENDS = tuple(step * 10.0**power for power in range(-6, 7) for step in (1, 2, 5))
 CREST, COLLAPSE, STILL = 3.0, 2.0, 0.05
 HIGHEST = 1.2  # the colours of pressure end at the pressure on the bed under still water times this
-PAGE_WIDTH = 10.0  # [inch]
+LEGEND, BAR = 0.4, 1.3  # height of the legend, and of the colour bar with its numbers [inch]
 # Discs as wide as the spacing touch. If they are smaller than SMALL, only a pattern is seen: they
 # are drawn CLOSED times as wide, which closes the gaps.
 SMALL, CLOSED = 2.5, 1.4  # [points of 1/72 inch], [-]
@@ -135,12 +135,15 @@ def draw_panels(slices, case, box, title, field):
     (left, right), (bottom, top) = box
     aspect = (top - bottom) / (right - left)
     columns = 1 if aspect < 0.2 or len(slices) == 1 else 2
-    size = disc_size(case["particles"]["spacing"], 72 * PAGE_WIDTH / columns / (right - left))
-    rows = -(-len(slices) // columns)
-    height = rows * (0.9 * PAGE_WIDTH / columns * aspect + 0.45) + 2.6
-    figure = Figure(figsize=(PAGE_WIDTH, height), layout="constrained")
-    figure.get_layout_engine().set(h_pad=0.08)
-    axes = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
+    size = disc_size(case["particles"]["spacing"], 72 * sheet.WIDTH / columns / (right - left))
+    handles = _handles(slices, case, box, scale)
+    legend = LEGEND if handles else 0.0
+    text = f"{title}: water coloured by {scale.field}" if scale else title
+    figure, axes = sheet.make(
+        -(-len(slices) // columns), columns, lambda width: aspect * width, heading(case, text),
+        legend + (BAR if scale else 0.0), sharex=True, sharey=True,
+    )  # fmt: skip
+    axes = axes.ravel()
     for ax, piece in zip(axes, slices, strict=False):
         water = draw_slice(ax, piece, case, scale, size)
         draw_still_water(ax, case)
@@ -150,17 +153,18 @@ def draw_panels(slices, case, box, title, field):
     for ax in axes[len(slices) :]:
         ax.set_axis_off()
     if scale:
-        _draw_colour_bar(figure, axes, water, scale)
-    _draw_legend(figure, slices, case, box, scale)
-    text = f"{title}: water coloured by {scale.field}" if scale else title
-    figure.suptitle(heading(case, text))
+        _draw_colour_bar(figure, water, scale, legend)
+    if handles:
+        figure.legend(handles=handles, loc="lower center", ncols=len(handles))
     return figure
 
 
-def _draw_colour_bar(figure, axes, water, scale):
-    """The colour bar, below in SI units and above in those of the tank."""
+def _draw_colour_bar(figure, water, scale, legend):
+    """The colour bar above the legend, below in SI units and above in those of the tank."""
+    long = 0.6 * sheet.WIDTH
+    where = sheet.place(figure, 0.5 * (sheet.WIDTH - long), legend + 0.55, long, 0.12)
     bar = figure.colorbar(
-        water, ax=axes.tolist(), location="bottom", extend="max", shrink=0.6, aspect=50, pad=0.02,
+        water, cax=figure.add_axes(where), orientation="horizontal", extend="max",
         label=LABELS[scale.field],
     )  # fmt: skip
     if scale.name:
@@ -170,7 +174,7 @@ def _draw_colour_bar(figure, axes, water, scale):
         above.set_xlabel(f"{scale.field} / ${scale.name}$")
 
 
-def _draw_legend(figure, slices, case, box, scale):
+def _handles(slices, case, box, scale):
     """What the colour bar does not tell: solids, still water, and water of one colour."""
     (left, right), (bottom, top) = box
     seen = set()
@@ -182,8 +186,7 @@ def _draw_legend(figure, slices, case, box, scale):
         handles.insert(0, _disc(WATER, "water"))
     if not case.get("water"):
         handles.append(Line2D([], [], label="still water level", **STILL_WATER))
-    if handles:
-        figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
+    return handles
 
 
 def _disc(colour, label):

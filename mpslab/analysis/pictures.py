@@ -2,8 +2,8 @@
 
 import matplotlib
 import numpy as np
-from matplotlib.figure import Figure
 
+from mpslab.analysis import sheet
 from mpslab.analysis.headings import heading
 from mpslab.analysis.results import open_run
 from mpslab.analysis.snapshots import draw_breaker, draw_tank
@@ -25,6 +25,7 @@ STYLE = {
 NAMES = ("tank", "pressure", "breaker", "gauges", "probes", "energy", "solver")
 RESOLUTIONS = range(160, 60, -10)  # of pictures in documents, dots an inch
 MEDIAN = 3  # readings whose median a reading is compared with
+LIMITS = 1.8  # [inch] beside the panels, for the names of the limits of the time step
 OUTLYING = 0.2  # times the range of these medians: a reading farther out is off the scale
 
 
@@ -54,7 +55,7 @@ def draw_run(folder):
     target = run.folder / "pictures"
     target.mkdir(exist_ok=True)
     drawn = []
-    with matplotlib.rc_context(STYLE):
+    with matplotlib.rc_context(STYLE | {"savefig.bbox": "standard"}):
         for name, figure in _figures(run):
             drawn.append(target / f"{name}.png")
             figure.savefig(drawn[-1])
@@ -113,15 +114,13 @@ def _figures(run):
         yield "solver", draw_solver(run.steps, case)
 
 
-def _stack(count, case, title, height=2.0):
+def _stack(count, case, title, height=1.7, right=sheet.RIGHT):
     """Figure of panels above each other with a common axis of time."""
-    figure = Figure(figsize=(10.0, 1.8 + height * count), layout="constrained")
-    axes = figure.subplots(count, 1, sharex=True, squeeze=False)[:, 0]
-    for ax in axes:
+    figure, axes = sheet.make(count, 1, height, heading(case, title), right=right, sharex=True)
+    for ax in axes[:, 0]:
         ax.grid(color="0.9", linewidth=0.6)
-    axes[-1].set_xlabel("time [s]")
-    figure.suptitle(heading(case, title))
-    return figure, axes
+    axes[-1, 0].set_xlabel("time [s]")
+    return figure, axes[:, 0]
 
 
 def _draw_reading(ax, time, values, unit):
@@ -181,7 +180,7 @@ def draw_gauges(gauges, case):
     boxes = bool(case.get("water"))
     zero, what = (0.0, "level") if boxes else (case["tank"]["depth"], "elevation")
     title = "Water level above z = 0" if boxes else "Surface elevation above still water"
-    figure, axes = _stack(len(names), case, f"{title} at the gauges; no line where it is dry", 1.6)
+    figure, axes = _stack(len(names), case, f"{title} at the gauges; no line where it is dry", 1.4)
     for ax, name in zip(axes, names, strict=True):
         ax.axhline(0.0, color="0.6", linewidth=0.8)
         _draw_reading(ax, gauges[time], gauges[name] - zero, "m")
@@ -206,7 +205,7 @@ def draw_probes(probes, case):
     """
     places = {probe["name"]: _place(probe, case, "xyz") for probe in case.get("probe", ())}
     pressures = [name for name in probes.dtype.names if name.endswith(" pressure")]
-    figure, axes = _stack(len(pressures), case, "Pressure at the probes", height=1.6)
+    figure, axes = _stack(len(pressures), case, "Pressure at the probes", 1.4)
     for ax, name in zip(axes, pressures, strict=True):
         _draw_reading(ax, probes["time"], probes[name], "Pa")
         name = name.removesuffix(" pressure")
@@ -238,7 +237,7 @@ def draw_energy(steps, case):
     """
     time, kinetic = steps["time"], steps["kinetic_energy"]
     gained = steps["potential_energy"] - steps["potential_energy"][0]
-    figure, (ax,) = _stack(1, case, "Energy of the water", height=3.6)
+    figure, (ax,) = _stack(1, case, "Energy of the water", 3.6)
     ax.plot(time, kinetic, label="kinetic")
     ax.plot(time, gained, label="potential, less that at the start", linestyle="--")
     ax.plot(time, kinetic + gained, label="sum", color="black", linewidth=1.6)
@@ -263,7 +262,7 @@ def draw_solver(steps, case):
     """
     time, seconds = steps["time"], steps["seconds"]
     title = f"{len(time)} steps in {seconds.sum():.4g} s: {seconds.mean():.3g} s a step"
-    figure, (top, middle, bottom) = _stack(3, case, title)
+    figure, (top, middle, bottom) = _stack(3, case, title, right=LIMITS)
     top.plot(time, steps["iterations"], linewidth=0.8)
     top.set_ylabel("iterations of the\npressure solver")
     _draw_time_step(middle, steps)

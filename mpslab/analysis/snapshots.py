@@ -107,13 +107,13 @@ def draw_breaker(frames, case):
     -------
     matplotlib Figure, or None if there is no such front, or the frames hold no velocity
     """
-    fronts = [_front(piece, case["particles"]["spacing"]) for piece in _slices(frames, case)]
-    index = _moment(fronts)
-    if index is None:
+    spacing = case["particles"]["spacing"]
+    found = _moment(_front(piece, spacing) for piece in _slices(frames, case))
+    if found is None:
         return None
+    index, front = found
     first = max(min(index - 1, len(frames) - BREAKER_FRAMES), 0)
     slices = list(_slices(frames[first : first + BREAKER_FRAMES], case))
-    front = fronts[index]
     what = "Where a wave overturns" if front.overturns else "Where the front of a wave is upright"
     return draw_panels(slices, case, _window(front, slices, case), what, "speed")
 
@@ -127,9 +127,14 @@ def _front(piece, spacing):
 
 
 def _moment(fronts):
-    """Number of the first frame with a jet; if none has one, of the first with an upright front."""
-    breaking = [k for k, front in enumerate(fronts) if front]
-    return next((k for k in breaking if fronts[k].overturns), min(breaking, default=None))
+    """Number and front of the first frame with a jet; if none has one, with an upright front."""
+    upright = None
+    for number, front in enumerate(fronts):
+        if front and front.overturns:
+            return number, front
+        if front and upright is None:
+            upright = number, front
+    return upright
 
 
 def _box(slices, case):

@@ -68,6 +68,24 @@ class Cells:
         cells.count(cell, start)
         return cell, start, count
 
+    def near(self, position, ones, others):
+        """Those of the ones that may be within a radius of one of the others: masks (n,) bool.
+
+        Looked at are blocks of 2 x 2 x 2 cells, which are a radius wide at least, and those beside
+        them.  Across a periodic tank all of a row counts as one block.
+        """
+        blocks = (self.count + 1) // 2
+        blocks[1] = 1 if self.width > 0.0 else blocks[1]
+        marks, out = np.zeros(blocks, np.uint8), np.empty(len(position), np.uint8)
+        grid = self.lower, self.per, self.count, blocks
+        cells.mark(position, others.view(np.uint8), *grid, marks.ravel())
+        for axis in range(3):
+            line, before = np.moveaxis(marks, axis, 0), np.moveaxis(marks.copy(), axis, 0)
+            line[1:] |= before[:-1]
+            line[:-1] |= before[1:]
+        cells.marked(position, ones.view(np.uint8), *grid, marks.ravel(), out)
+        return out.view(bool)
+
     def reach(self, radius):
         """How many cells away a neighbour within a radius [m] may be, along x, y and z: (3,)."""
         return np.ceil(radius * self.per).astype(np.int32)

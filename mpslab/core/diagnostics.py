@@ -20,7 +20,8 @@ def max_speed(particles, counts=True):
     counts : (n,) bool, of those that count, all by default
     """
     moving = (particles.role != FILLER) & (particles.body != TANK) & counts
-    return float(np.sqrt(squares(particles.velocity).max(initial=0.0, where=moving)))
+    velocity = particles.velocity.take(np.flatnonzero(moving), 0)
+    return float(np.sqrt(squares(velocity).max(initial=0.0)))
 
 
 def max_speed_together(particles):

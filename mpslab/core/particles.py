@@ -89,7 +89,8 @@ class ParticleSet:
         """The particles of a mask, index or slice, as a new set; those of a slice share memory."""
         if isinstance(rows, slice):
             return ParticleSet(**{f.name: getattr(self, f.name)[rows] for f in fields(self)})
-        rows = np.arange(len(self))[rows]
+        if not (isinstance(rows, np.ndarray) and rows.dtype.kind == "i"):
+            rows = np.arange(len(self))[rows]
         return ParticleSet(**{f.name: getattr(self, f.name).take(rows, 0) for f in fields(self)})
 
 

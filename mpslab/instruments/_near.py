@@ -5,24 +5,26 @@ import numpy as np
 from mpslab.kernels import column
 
 
-def read_near(flow, places, reach, read):
-    """What `read` returns for the particles near some places, the same on all ranks.
+def read_near(flow, points, reach, read):
+    """What `read` returns for the particles near some points, the same on all ranks.
 
     Parameters
     ----------
     flow : mpslab.run.flow.Flow
-    places : sequence of float [m]
-        Along the tank.
-    reach : float [m]
+    points : sequence of (x, y, z) [m]
+    reach : (3,) [m]
+        Along each axis; in a periodic tank the nearest image counts.
     read : callable
         Gets a `ParticleSet` in the order of gid, on rank 0 alone, and returns a list.
 
     Returns
     -------
     list
-        Empty where there are no places.
+        Empty where there are no points.
     """
-    return read_of(flow, within(flow.particles, places, reach), read) if places else []
+    if not len(points):
+        return []
+    return read_of(flow, beside(flow.particles, points, reach, flow.stencil.width), read)
 
 
 def read_of(flow, rows, read):
@@ -39,3 +41,10 @@ def within(particles, places, reach):
     starts, ends = starts[np.append(True, apart)], ends[np.append(apart, True)]
     rows = np.empty(len(particles), np.int32)
     return rows[: column.within(particles.position, starts, ends, rows)]
+
+
+def beside(particles, points, reach, width):
+    """Rows of the particles within a reach (3,) of one of the points (k, 3), (m,) int32 [m]."""
+    rows = np.empty(len(particles), np.int32)
+    points, reach = np.array(points, float), np.array(reach, float)
+    return rows[: column.beside(particles.position, points, reach, width, rows)]

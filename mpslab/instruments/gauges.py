@@ -1,10 +1,12 @@
 """Wave gauges, ``[[gauge]]``: the water level over a place."""
 
+import numpy as np
+
 from mpslab.core.gauges import surface_elevation
 from mpslab.instruments import Instrument
 from mpslab.instruments._near import read_near
 
-REACH = 3.0  # spacings
+REACH = 3.0  # spacings, to either side
 
 
 def make(case):
@@ -24,8 +26,10 @@ class Gauges(Instrument):
 
     def read(self, flow):
         """A row of water levels."""
-        reach = REACH * flow.stencil.spacing
-        levels = read_near(flow, [g.x for g in self.places], reach, lambda p: self._levels(flow, p))
+        aside = REACH * flow.stencil.spacing
+        reach = aside, aside if flow.stencil.dim == 3 else np.inf, np.inf
+        points = [(gauge.x, gauge.y, 0.0) for gauge in self.places]
+        levels = read_near(flow, points, reach, lambda p: self._levels(flow, p))
         flow.readings.update((g.name, z) for g, z in zip(self.places, levels, strict=True))
         return [(flow.time, *levels)]
 

@@ -26,8 +26,9 @@ class Probes(Instrument):
 
     def read(self, flow):
         """A row of four readings for each probe."""
-        reach = REACH * flow.stencil.spacing
-        values = read_near(flow, [q.x for q in self.places], reach, lambda p: self._values(flow, p))
+        reach = [REACH * flow.stencil.spacing] * 3
+        points = [(probe.x, probe.y, probe.z) for probe in self.places]
+        values = read_near(flow, points, reach, lambda p: self._values(flow, p))
         return [(flow.time, *(value for probe in values for value in probe))]
 
     def _values(self, flow, p):

@@ -88,3 +88,34 @@ def ascend(const int[::1] cell):
         for i in range(1, cell.shape[0]):
             sorted_ &= cell[i - 1] <= cell[i]
     return sorted_
+
+
+cdef inline Py_ssize_t block_of(const double[:, ::1] position, Py_ssize_t i,
+                                const double[::1] lower, const double[::1] per,
+                                const int[::1] count, const int[::1] blocks) noexcept nogil:
+    """The block of 2 x 2 x 2 cells that a place is in; along an axis with one block, that."""
+    cdef int x = along(position[i, 0], lower[0], per[0], count[0]) >> 1
+    cdef int y = along(position[i, 1], lower[1], per[1], count[1]) >> 1 if blocks[1] > 1 else 0
+    cdef int z = along(position[i, 2], lower[2], per[2], count[2]) >> 1
+    return (x * blocks[1] + y) * blocks[2] + z
+
+
+def mark(const double[:, ::1] position, const unsigned char[::1] mask, const double[::1] lower,
+         const double[::1] per, const int[::1] count, const int[::1] blocks,
+         unsigned char[::1] marks):
+    """marks (blocks,) = 1 for those with particles of the mask in them."""
+    cdef Py_ssize_t i
+    with nogil:
+        for i in range(position.shape[0]):
+            if mask[i]:
+                marks[block_of(position, i, lower, per, count, blocks)] = 1
+
+
+def marked(const double[:, ::1] position, const unsigned char[::1] mask, const double[::1] lower,
+           const double[::1] per, const int[::1] count, const int[::1] blocks,
+           const unsigned char[::1] marks, unsigned char[::1] out):
+    """out (n,) = whether a particle of the mask is in a block that is marked."""
+    cdef Py_ssize_t i
+    with nogil:
+        for i in range(position.shape[0]):
+            out[i] = marks[block_of(position, i, lower, per, count, blocks)] if mask[i] else 0

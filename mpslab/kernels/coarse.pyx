@@ -6,6 +6,8 @@ is kept in compressed rows and Z^T A Z as a band: band[g, half + h - g] couples 
 from cython cimport floating
 from libc.math cimport sqrt
 
+from mpslab.kernels.lanes cimport row_of_doubles
+
 
 def by_group(const int[::1] row, const int[::1] column, const floating[::1] value,
              const double[::1] diagonal, const int[::1] group, Py_ssize_t begin, Py_ssize_t end,
@@ -154,11 +156,9 @@ def spread(const int[::1] group, const double[::1] y, double[::1] x):
 def take_off(const int[::1] start, const int[::1] member, const double[::1] entry,
              const double[::1] y, Py_ssize_t begin, Py_ssize_t end, double[::1] q):
     """q = q - A Z y in the rows from begin to end."""
-    cdef Py_ssize_t i, k
-    cdef double total
+    cdef Py_ssize_t i, entries = member.shape[0]
     with nogil:
         for i in range(begin, end):
-            total = q[i]
-            for k in range(start[i], start[i + 1]):
-                total -= entry[k] * y[member[k]]
-            q[i] = total
+            if start[i] < start[i + 1]:
+                q[i] -= row_of_doubles(&entry[start[i]], &member[start[i]], &y[0],
+                                       start[i + 1] - start[i], entries - start[i])

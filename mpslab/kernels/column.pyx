@@ -1,6 +1,8 @@
 """The column of water over a place, which a gauge reads."""
 from libc.math cimport fabs, rint
 
+from mpslab.kernels.pair cimport wrap
+
 
 cdef inline double spline(double t) noexcept nogil:
     """Quadratic B-spline, t in spacings: a bell of half width 1.5 and of area one."""
@@ -113,6 +115,29 @@ def within(const double[:, ::1] position, const double[::1] starts, const double
             inside = False
             for k in range(starts.shape[0]):
                 inside |= starts[k] < position[i, 0] < ends[k]
+            rows[found] = <int>i
+            found += inside
+    return found
+
+
+def beside(const double[:, ::1] position, const double[:, ::1] points, const double[::1] reach,
+           double width, int[::1] rows):
+    """rows = the particles that are less than a reach from one of the points along every axis.
+
+    points : (k, 3), reach : (3,) [m]; width : period along y, 0 for none
+
+    Returns how many there are.
+    """
+    cdef Py_ssize_t i, k
+    cdef int found = 0
+    cdef bint inside
+    with nogil:
+        for i in range(position.shape[0]):
+            inside = False
+            for k in range(points.shape[0]):
+                if fabs(position[i, 0] - points[k, 0]) < reach[0]:
+                    inside |= (fabs(wrap(position[i, 1] - points[k, 1], width)) < reach[1]
+                               and fabs(position[i, 2] - points[k, 2]) < reach[2])
             rows[found] = <int>i
             found += inside
     return found

@@ -54,16 +54,52 @@ INLINE four plus(four sum, double factor, four v) { return sum + factor * v; }
 
 /* Nearest image of a distance across the tank; width = 0 means no periodicity. */
 INLINE four nearest(four v, double width) {
+    if (!(width > 0.0)) return v;
     four half = {0.5 * width, 0.5 * width, 0.5 * width, 0.5 * width};
     four_masks period = (four_masks)(four){0.0, width, 0.0, 0.0};
     return v - (four)((v > half) & period) + (four)((v < -half) & period);
 }
 
+/* The numbers at four places of x. */
+INLINE four gathered(const double *x, const int *at) {
+    return (four){x[at[0]], x[at[1]], x[at[2]], x[at[3]]};
+}
+
+/* Sum of value times x at its place over the entries of a row, four at a time.
+
+   There are `room` entries from the row's first on.  So that the end of a row needs no loop of its
+   own, up to four of what is behind it are read as well, and count for nothing. */
+#define ROW_SUM(name, number, taken)                                                       \
+    INLINE double name(const number *value, const int *place, const double *x,             \
+                       long count, long room) {                                            \
+        four sum = nothing();                                                              \
+        long k = 0;                                                                        \
+        for (; k + 4 <= count; k += 4) sum += taken(value + k) * gathered(x, place + k);   \
+        number last[4] = {0, 0, 0, 0};                                                     \
+        int where[4] = {0, 0, 0, 0};                                                       \
+        if (k + 4 > room) {                                                                \
+            for (long e = 0; k + e < count; e++) {                                         \
+                last[e] = value[k + e];                                                    \
+                where[e] = place[k + e];                                                   \
+            }                                                                              \
+            sum += taken(last) * gathered(x, where);                                       \
+        } else {                                                                           \
+            four_masks wanted = (four_masks){0, 1, 2, 3} < count - k;                      \
+            sum += (four)((four_masks)taken(value + k) & wanted) * gathered(x, place + k); \
+        }                                                                                  \
+        return (sum[0] + sum[1]) + (sum[2] + sum[3]);                                      \
+    }
+
+ROW_SUM(row_of_singles, float, widened)
+ROW_SUM(row_of_doubles, double, load)
+
 /* Which of four places, less another one, are nearer than the root of the limit: a bit each. */
 INLINE int near_four(four x, four y, four z, double limit, double width) {
-    four half = {0.5 * width, 0.5 * width, 0.5 * width, 0.5 * width};
-    four_masks period = (four_masks)(half + half);
-    y = y - (four)((y > half) & period) + (four)((y < -half) & period);
+    if (width > 0.0) {
+        four half = {0.5 * width, 0.5 * width, 0.5 * width, 0.5 * width};
+        four_masks period = (four_masks)(half + half);
+        y = y - (four)((y > half) & period) + (four)((y < -half) & period);
+    }
     four square = x * x + y * y + z * z;
     four_masks near = square < limit;
 #ifdef __AVX__

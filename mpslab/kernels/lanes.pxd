@@ -19,3 +19,7 @@ cdef extern from "lanes.h" nogil:
                    double z, double limit, double width) noexcept
     void prepare_squeeze() noexcept
     int squeeze(int* to, const int* numbers, int choice) noexcept
+    double row_of_singles(const float* value, const int* place, const double* x,
+                          long count, long room) noexcept
+    double row_of_doubles(const double* value, const int* place, const double* x,
+                          long count, long room) noexcept

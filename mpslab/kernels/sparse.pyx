@@ -1,6 +1,8 @@
 """Sparse rows: product, incomplete Cholesky factor, substitution."""
 from cython cimport floating
 
+from mpslab.kernels.lanes cimport row_of_doubles, row_of_singles
+
 
 def multiply(const int[::1] row, const int[::1] column, const floating[::1] value,
              const double[::1] diagonal, const double[::1] x, double[::1] out,
@@ -9,14 +11,20 @@ def multiply(const int[::1] row, const int[::1] column, const floating[::1] valu
 
     The diagonal is stored beside the off-diagonal rows.
     """
-    cdef Py_ssize_t i, k
-    cdef double total
+    cdef Py_ssize_t i, entries = column.shape[0]
+    if end < 0:
+        end = diagonal.shape[0]
     with nogil:
-        for i in range(begin, diagonal.shape[0] if end < 0 else end):
-            total = diagonal[i] * x[i]
-            for k in range(row[i], row[i + 1]):
-                total += value[k] * x[column[k]]
-            out[i] = total
+        for i in range(begin, end):
+            out[i] = diagonal[i] * x[i]
+            if row[i] == row[i + 1]:
+                continue
+            if floating is float:
+                out[i] += row_of_singles(&value[row[i]], &column[row[i]], &x[0],
+                                         row[i + 1] - row[i], entries - row[i])
+            else:
+                out[i] += row_of_doubles(&value[row[i]], &column[row[i]], &x[0],
+                                         row[i + 1] - row[i], entries - row[i])
 
 
 def dot(const double[::1] x, const double[::1] y):

@@ -20,7 +20,7 @@ from functools import cache
 import numpy as np
 
 from mpslab.core.cells import make_cells
-from mpslab.core.particles import ParticleSet
+from mpslab.core.particles import ParticleSet, joined, no_particles
 from mpslab.core.stopwatch import COMMUNICATION, WAITING, WORK, Stopwatch
 from mpslab.kernels import vectors
 from mpslab.parallel import balance, headcount, rebalance
@@ -84,6 +84,8 @@ class Domain:
         Particles that came here from other ranks.
     ghosts : int
         How many there were in the last step.
+    aside : ParticleSet
+        Those of this rank that have no part in the step.
     """
 
     def __init__(self, slabs, comm=None, cells=None):
@@ -94,6 +96,7 @@ class Domain:
         self.cuts = balance.cut("static", np.zeros(slabs.count), self.size)
         self.slab, self.owned = np.zeros(0, np.int32), slice(0, 0)
         self.stopwatch, self.migrated, self.ghosts = Stopwatch(), 0, 0
+        self.aside = self._whole = no_particles()
         self._halo = []
 
     @property
@@ -130,31 +133,67 @@ class Domain:
         self.owned = slice(0, len(self.slab))
         return ParticleSet(*arrays)
 
-    def share_out(self, particles, *companions):
+    def share_out(self, particles, *companions, idle=None):
         """Send particles to the ranks that own the slabs they are in, then get the ghosts.
 
         Parameters
         ----------
         particles : ParticleSet, without ghosts
         companions : (n, ...) arrays that go with them
+        idle : callable, optional
+            Takes a `ParticleSet`, ghosts among them, and gives a mask (n,) bool of those that have
+            no part in what follows: they are put `aside` until `without_ghosts`, unless another
+            rank sees them.
 
         Returns
         -------
         particles : ParticleSet in the order of the cells, ghosts among them
+            Its arrays are to be changed in place.
         companions : list of arrays
         """
-        arrays = [*arrays_of(particles), *companions]
+        arrays, count = [*arrays_of(particles), *companions], len(fields(ParticleSet))
         if self.size > 1:
             arrays = self._share(arrays)
-        order = self.cells.order(arrays[POSITION], arrays[GID])
-        arrays = [_ordered(a, order) for a in arrays]
-        self._find_halo(self._slab_of(arrays))
-        count = len(fields(ParticleSet))
-        return ParticleSet(*arrays[:count]), arrays[count:]
+        off = self._out_of_it(ParticleSet(*arrays[:count]), idle)
+        order = self._in_order(np.flatnonzero(~off).astype(np.int32), arrays)
+        last = np.append(order, np.flatnonzero(off).astype(np.int32))
+        self._whole = ParticleSet(*(_ordered(a, last) for a in arrays[:count]))
+        self.aside = self._whole.take(slice(len(order), None))
+        particles = self._whole.take(slice(0, len(order)))
+        self._find_halo(self.slabs.of(particles.position[:, 0]))
+        return particles, [_ordered(a, order) for a in arrays[count:]]
 
-    def without_ghosts(self, particles):
-        """The particles that this rank owns."""
-        return self.keep(particles, self.owned) if self.ghosts else particles
+    def _out_of_it(self, particles, idle):
+        """Mask of the particles that are put aside, (n,) bool."""
+        if idle is None:
+            return np.zeros(len(particles), bool)
+        off = idle(particles)
+        if self.size > 1:
+            slab = self.slabs.of(particles.position[:, 0])
+            for r in (self.rank, *self._beside()):
+                off &= ~self._seen_by(r, slab)
+        return off
+
+    def _in_order(self, rows, arrays):
+        """Rows (m,) int32 of the arrays, in the order of the cells."""
+        return rows.take(self.cells.order(*(_ordered(arrays[k], rows) for k in (POSITION, GID))))
+
+    def without_ghosts(self, particles, *companions):
+        """The particles of a step that this rank owns, and behind them those put aside.
+
+        With companions (n, ...) a list of these as well, zero for what was put aside.
+        """
+        more = len(self.aside)
+        if self.ghosts:
+            companions = [a[self.owned] for a in companions]
+            particles = self.keep(particles, self.owned)
+            self._whole = joined(particles, self.aside)
+        if more:
+            companions = [np.concatenate([a, np.zeros((more, *a.shape[1:]))]) for a in companions]
+            particles, self._whole = self._whole, no_particles()
+            self.slab = np.append(self.slab, self.slabs.of(self.aside.position[:, 0]))
+            self.owned, self.aside = slice(0, len(self.slab)), no_particles()
+        return (particles, companions) if companions else particles
 
     def keep(self, particles, rows):
         """The particles of a mask, index or slice; from then on none counts as a ghost."""
@@ -279,9 +318,13 @@ class Domain:
             self._wait([self.comm.Iallreduce(values, total)])
         return total
 
-    def total(self, values):
-        """Sum of (n,) values over the particles of all ranks, slab by slab."""
-        return self.add(np.bincount(self.slab, values, minlength=self.slabs.count))
+    def total(self, values, rows=None):
+        """Sum of values over the particles of all ranks, slab by slab.
+
+        values : (n,), or (m,) of the particles that `rows` (m,) int picks
+        """
+        slab = self.slab if rows is None else self.slab.take(rows)
+        return self.add(np.bincount(slab, values, minlength=self.slabs.count))
 
     def totals(self, *parts):
         """As `total`, column by column, of values that some particles have, (k,).
@@ -332,10 +375,10 @@ def arrays_of(particles):
 
 
 def _ordered(array, order):
-    """Rows of an array (n, ...) in an order (n,) int32."""
+    """Rows of an array (n, ...) in an order (m,) int32."""
     if array.ndim == 1:
         return array.take(order)
-    out = np.empty_like(array)
+    out = np.empty((len(order), *array.shape[1:]))
     vectors.take(array, order, out)
     return out
 

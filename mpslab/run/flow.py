@@ -100,6 +100,17 @@ class Flow:
         """Mask of the particles whose pressure is an unknown of the equation, (n,) bool."""
         return self.particles.fluid if self.extrapolates else self.particles.carries_pressure
 
+    def idle(self, particles):
+        """Mask of the solids' particles that are too far from the water to be seen by it.
+
+        None where a solid's pressure is an unknown, or where the water moves on before its
+        neighbours are found.
+        """
+        if not self.extrapolates or self.case.scheme.projection == "predicted":
+            return np.zeros(len(particles), bool)
+        still = self.solids.still(particles)
+        return still & ~self.domain.cells.near(particles.position, still, particles.fluid)
+
     def state(self):
         """What a checkpoint keeps beside the particles: names to numbers and strings.
 

@@ -7,6 +7,8 @@ with 60 layers the pressure fell to nothing and rose to five times its value, wi
 water apart.
 """
 
+from functools import partial
+
 import numpy as np
 
 from mpslab.core.bed import CLOSEST
@@ -43,7 +45,7 @@ def settle(flow):
     _close(flow, count)
     move = np.zeros_like(flow.particles.position)
     for turn in range(flow.case.scheme.settling):
-        flow.particles, (move,) = domain.share_out(flow.particles, move)
+        flow.particles, (move,) = domain.share_out(flow.particles, move, idle=flow.idle)
         step.find_neighbors(flow)
         step.measure(flow)
         step.find_surface(flow)
@@ -52,8 +54,7 @@ def settle(flow):
         shift = _shift(flow)
         move = _capped(shift + (MOMENTUM if turn >= CALM else 0.0) * move, flow.stencil.spacing)
         _displace(flow, move)
-        shift, move = shift[domain.owned], move[domain.owned]
-        flow.particles = domain.without_ghosts(flow.particles)
+        flow.particles, (shift, move) = domain.without_ghosts(flow.particles, shift, move)
         if turn >= CALM and _rms(flow, shift) <= SETTLED * flow.stencil.spacing:
             break
     flow.particles = domain.keep(flow.particles, flow.particles.gid < count)
@@ -111,13 +112,14 @@ def _capped(move, spacing):
 def _displace(flow, move):
     particles = flow.particles
     particles.position += move
-    weight = flow.case.fluid.density * step.force_on(flow, 0.0)
-    particles.pressure += (weight * move).sum(axis=1)
+    x, y, z = (flow.case.fluid.density * step.force_on(flow, 0.0) * move).T
+    particles.pressure += x + y + z
     if flow.stencil.width > 0.0:
         particles.position[:, 1] %= flow.stencil.width
 
 
 def _rms(flow, shift):
     """Root of the mean square of displacements (n, 3) of the water of all ranks [m]."""
-    square, water = np.einsum("ij,ij->i", shift, shift), flow.particles.fluid.astype(float)
-    return np.sqrt(flow.domain.total(square) / flow.domain.total(water))
+    water = np.flatnonzero(flow.particles.fluid)
+    shift, total = shift.take(water, 0), partial(flow.domain.total, rows=water)
+    return np.sqrt(total(np.einsum("ij,ij->i", shift, shift)) / total(np.ones(len(water))))

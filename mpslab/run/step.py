@@ -27,7 +27,10 @@ def advance(flow, dt):
     start, before = flow.particles.position.copy(), flow.particles.velocity.copy()
     _predict(flow, dt)
     with watch.phase("ghosts"):
-        flow.particles, (start, before) = domain.share_out(flow.particles, start, before)
+        flow.particles, (start, before) = domain.share_out(
+            flow.particles, start, before, idle=flow.idle
+        )
+        _unload(domain.aside)
     particles = flow.particles
     for one in flow.exchanges:
         one.begin(particles, before)
@@ -78,6 +81,12 @@ def _predict(flow, dt):
     if flow.case.scheme.projection == "predicted":
         add_where(particles.fluid, particles.position, _flight(flow, dt))
         flow.solids.move(particles, flow.time, dt)
+
+
+def _unload(particles):
+    """Leave on particles that are not in the step what it would find: that no water is near."""
+    particles.pressure[:] = particles.number_density[:] = 0.0
+    particles.surface[:] = 0
 
 
 def force_on(flow, dt):

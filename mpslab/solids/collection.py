@@ -110,6 +110,15 @@ class Solids:
         for body, solid in self.moving.items():
             solid.move(particles, np.flatnonzero(particles.body == body), time, dt)
 
+    def still(self, particles):
+        """Mask of the particles of solids that never change, (n,) bool."""
+        found = ~particles.fluid
+        for body in self.moving:
+            found &= particles.body != body
+        if self.piston:
+            found &= particles.position[:, 0] >= self.piston.near  # the bed that it may cover
+        return found
+
     def accelerates(self, particles):
         """Mask of the solids' particles whose acceleration the water feels, (n,) bool."""
         return np.isin(particles.body, self.felt)
