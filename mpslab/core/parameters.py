@@ -163,7 +163,7 @@ class Time:
     compression: float = key(
         "dt <= compression / largest rate at which water runs together before the pressure acts; "
         "not with projection 'predicted'",
-        0.02,
+        0.03,
         above=0,
         high=10,
     )

@@ -5,7 +5,7 @@ a_ij = (w - (w/r^2) r_ij . b_i)/n0.  The vector b_i makes it zero of any linear 
 surface too: (sum_j r_ij (x) r_ij w/r^2) b_i = sum_j w r_ij.
 
 row, solid, other, offset, inverse : pairs, see mpslab.kernels.measure
-b : (n, 4) [1/m], the fourth number 0
+found : (n, 2, 4), L u [m/s] and b [1/m] of the water, 0 of solids; the fourth numbers are 0
 """
 from mpslab.kernels.lanes cimport four, lane, load, minus, nothing, plus, store, times, widened
 from mpslab.kernels.pair cimport FLUID, weight
@@ -17,11 +17,8 @@ cdef double LEAST_DETERMINANT = 0.008
 
 def unevenness(const int[::1] row, const int[::1] solid, const int[::1] other,
                const float[:, ::1] offset, const float[::1] inverse, const signed char[::1] role,
-               stencil, const double[:, ::1] velocity, double[:, ::1] b, double[:, ::1] out):
-    """L u of the water, 0 of solids [m/s]; b is found as well.
-
-    velocity : (n, 4) [m/s], out : (n, 4); the fourth numbers are 0
-    """
+               stencil, const double[:, ::1] velocity, double[:, :, ::1] found):
+    """L u and b of velocities (n, 4) [m/s] whose fourth number is 0."""
     cdef double radius = stencil.radius, share = 1.0 / stencil.n0, w
     cdef int dim = stencil.dim
     cdef double[4] slope
@@ -29,8 +26,8 @@ def unevenness(const int[::1] row, const int[::1] solid, const int[::1] other,
     cdef Py_ssize_t i, k
     with nogil:
         for i in range(solid.shape[0]):
-            store(&b[i, 0], nothing())
-            store(&out[i, 0], nothing())
+            store(&found[i, 0, 0], nothing())
+            store(&found[i, 1, 0], nothing())
             if role[i] != FLUID:
                 continue
             here = load(&velocity[i, 0])
@@ -44,9 +41,9 @@ def unevenness(const int[::1] row, const int[::1] solid, const int[::1] other,
                 zz = plus(zz, lane(r, 2), gr)
                 x, y, z = plus(x, lane(gr, 0), u), plus(y, lane(gr, 1), u), plus(z, lane(gr, 2), u)
             if solve(xx, yy, zz, lean, dim, slope):
-                store(&b[i, 0], load(slope))
+                store(&found[i, 1, 0], load(slope))
                 sums = plus(plus(plus(sums, -slope[0], x), -slope[1], y), -slope[2], z)
-            store(&out[i, 0], sums)
+            store(&found[i, 0, 0], sums)
 
 
 cdef inline bint solve(four x, four y, four z, four right, int dim, double* out) noexcept nogil:
@@ -66,13 +63,10 @@ cdef inline bint solve(four x, four y, four z, four right, int dim, double* out)
 
 def transposed(const int[::1] row, const int[::1] solid, const int[::1] other,
                const float[:, ::1] offset, const float[::1] inverse, const signed char[::1] role,
-               stencil, const double[:, ::1] b, const double[:, ::1] values,
-               double[:, ::1] out):
-    """-L^T q_i = -sum_j (a_ji q_j - a_ij q_i) of the water, (n, 3) out; 0 of solids.
+               stencil, const double[:, :, ::1] found, double[:, ::1] out):
+    """-L^T q_i = -sum_j (a_ji q_j - a_ij q_i) of q = L u of the water, (n, 3) out; 0 of solids.
 
     What one of a pair gains the other loses.
-
-    values : (n, 4) q
     """
     cdef double radius = stencil.radius, share = 1.0 / stencil.n0, w, mine, yours
     cdef four here, total
@@ -81,12 +75,12 @@ def transposed(const int[::1] row, const int[::1] solid, const int[::1] other,
         for i in range(solid.shape[0]):
             total = nothing()
             if role[i] == FLUID:
-                here = load(&values[i, 0])
+                here = load(&found[i, 0, 0])
                 for k in range(row[i], solid[i]):
                     j, w = other[k], weight(inverse[k], radius)
-                    mine = share * (w - offset[k, 3] * dot(&b[i, 0], &offset[k, 0]))
-                    yours = share * (w + offset[k, 3] * dot(&b[j, 0], &offset[k, 0]))
-                    total = plus(plus(total, mine, here), -yours, load(&values[j, 0]))
+                    mine = share * (w - offset[k, 3] * dot(&found[i, 1, 0], &offset[k, 0]))
+                    yours = share * (w + offset[k, 3] * dot(&found[j, 1, 0], &offset[k, 0]))
+                    total = plus(plus(total, mine, here), -yours, load(&found[j, 0, 0]))
             for a in range(3):
                 out[i, a] = lane(total, a)
 

@@ -26,8 +26,8 @@ def change(near, velocity, share, refresh):
     mine = near.row, near.solid, near.other, near.offset, near.inverse, near.particles.role
     velocity = padded(velocity)
     refresh(velocity)
-    b, uneven, out = np.empty_like(velocity), np.empty_like(velocity), np.empty((len(velocity), 3))
-    kernels.unevenness(*mine, near.stencil, velocity, b, uneven)
-    refresh(b, uneven)
-    kernels.transposed(*mine, near.stencil, b, uneven, out)
+    found, out = np.empty((len(velocity), 2, 4)), np.empty((len(velocity), 3))
+    kernels.unevenness(*mine, near.stencil, velocity, found)
+    refresh(found)
+    kernels.transposed(*mine, near.stencil, found, out)
     return share * out

@@ -36,8 +36,8 @@ def compare(runs):
         found = Sensor(run)
         energy = [gain(run, found.hits[hit]) for hit in HITS]
         for part, figure in figures.items():
-            figure.line(_label(run), *found.part(part))
-        rows.append([_label(run), *found.row(), *energy])
+            figure.line(run.label, *found.part(part))
+        rows.append([run.label, *found.row(), *energy])
         if name == JUDGED:
             _measure(result, record, found, energy)
             _hold(result, record, found)
@@ -168,10 +168,6 @@ def gain(run, hit):
         return np.nan
     time, power, energy = np.array(rows).T
     return (energy[-1] - energy[0] - np.trapezoid(power, time)) / energy[0]
-
-
-def _label(run):
-    return run.label + (", smooth walls" if run.case.scheme.smooth_walls else "")
 
 
 def _figure(result, record, name):
