@@ -62,7 +62,18 @@ def take(methods, plan, out, results):
         Folder of the runs.
     results : Path
         Each method gets a folder there: ``run.json``, ``samples.csv`` and ``tops.npz``.
+
+    Raises
+    ------
+    Failed
+        If the run has not left one of the states.
     """
+    for state in (runs.state_of(out / runs.SAMPLED, time) for time in plan["at"]):
+        if not state.exists():
+            raise runs.Failed(
+                f"{state}: missing; remove {results / runs.SAMPLED}, and the run that leaves this "
+                "state is made again"
+            )
     rows, tops = {m.name: [] for m in methods}, {m.name: {} for m in methods}
     for time in plan["at"]:
         state = runs.state_of(out / runs.SAMPLED, time)

@@ -423,6 +423,14 @@ def test_run_makes_what_is_missing_and_nothing_twice(tmp_path, monkeypatch, tiny
     assert command.main(line) == 0 and made == ["mps", "fine"]
 
 
+def test_a_state_that_is_missing_is_named_before_any_work(tmp_path):
+    methods, plan = list(samples.read_methods().values()), {"at": [0.1, 0.4], "steps": 3}
+    runs.state_of(tmp_path / "cmps", 0.1).mkdir()
+    with pytest.raises(runs.Failed, match=r"cmps at 0\.40: missing; remove .*results/cmps"):
+        samples.take(methods, plan, tmp_path, tmp_path / "results")
+    assert not (tmp_path / "results").exists()
+
+
 def test_methods_go_on_from_the_states_of_a_run_and_are_kept(tmp_path):
     changes = {"particles.spacing": 0.01, "tank.width": 0.08, "time.end": 0.04,
                "output.interval": 0.02, "scheme.recipe": "paper"}  # fmt: skip
