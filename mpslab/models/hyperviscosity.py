@@ -10,9 +10,9 @@ def change(near, velocity, share, refresh):
     """-s L^T L u of the water, (n, 3) [m/s]; L as in mpslab.kernels.unevenness.
 
     A difference of fourth order, as it takes from a flow what its grid does not resolve (Jameson,
-    Schmidt & Turkel 1981). A wave of number k loses at most 0.12 s (k d0)^4 in it, what
-    alternates from particle to particle about s. As L is zero of linear velocities, at the surface too, momentum
-    and angular momentum are kept. Solids have no part in it.
+    Schmidt & Turkel 1981). A wave of number k loses at most 0.12 s (k d0)^4 in it, what alternates
+    from particle to particle about s. As L is zero of linear velocities, at the surface too,
+    momentum and angular momentum are kept. Solids have no part in it.
 
     Parameters
     ----------
