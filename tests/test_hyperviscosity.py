@@ -70,15 +70,19 @@ def test_solids_and_what_is_alone_keep_their_velocities():
     assert found[3, 0] > -3.0
 
 
+def stirs(strength, seed):
+    """Mean square speed from 0.1 s on, in a box of 10 x 10 [m2/s2]."""
+    tank = {"tank.length": 0.02, "scheme.settling": 200, "particles.jitter": 0.02,
+            "particles.seed": seed, "scheme.hyperviscosity": strength}  # fmt: skip
+    run, found = Simulation(make_case(tank)), []
+    run.run(until=0.1)
+    for _ in range(100):
+        run.advance()
+        found.append(np.mean(run.particles.velocity[run.particles.fluid] ** 2))
+    return np.mean(found)
+
+
 def test_still_water_is_the_stiller_for_it():
-    """Rms speed from 0.1 s on, in a box of 10 x 10."""
-    tank = {"tank.length": 0.02, "scheme.settling": 200, "particles.jitter": 0.02}
-    speeds = []
-    for strength in (0.0, 0.5):
-        run, found = Simulation(make_case(tank | {"scheme.hyperviscosity": strength})), []
-        run.run(until=0.1)
-        for _ in range(100):
-            run.advance()
-            found.append(np.mean(run.particles.velocity[run.particles.fluid] ** 2))
-        speeds.append(np.sqrt(np.mean(found)))
-    assert speeds[1] < 0.6 * speeds[0]
+    """Over four seeds, whose speeds fall to 0.15 to 0.56."""
+    with_it, without = (sum(stirs(s, seed) for seed in range(4)) for s in (0.5, 0.0))
+    assert with_it < 0.36 * without
