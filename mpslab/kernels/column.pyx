@@ -99,27 +99,6 @@ def top(const double[::1] fluid, const double[::1] solid, int gap, double least_
     return wet, part
 
 
-def within(const double[:, ::1] position, const double[::1] starts, const double[::1] ends,
-           int[::1] rows):
-    """rows = the particles whose x lies between one of the starts and its end [m].
-
-    starts, ends : (k,)
-
-    Returns how many there are.
-    """
-    cdef Py_ssize_t i, k
-    cdef int found = 0
-    cdef bint inside
-    with nogil:
-        for i in range(position.shape[0]):
-            inside = False
-            for k in range(starts.shape[0]):
-                inside |= starts[k] < position[i, 0] < ends[k]
-            rows[found] = <int>i
-            found += inside
-    return found
-
-
 def beside(const double[:, ::1] position, const double[:, ::1] points, const double[::1] reach,
            double width, int[::1] rows):
     """rows = the particles that are less than a reach from one of the points along every axis.
