@@ -67,6 +67,10 @@ cdef inline four plus_turned(four total, const double* columns, four v) noexcept
     return plus(total, lane(v, 2), load(columns + 8))
 
 
+cdef inline double dot(const double* v, const float* r) noexcept nogil:
+    return v[0] * r[0] + v[1] * r[1] + v[2] * r[2]
+
+
 cdef inline double along(const double* u, const double* v, const float* r) noexcept nogil:
     """(u - v) . r"""
     return (u[0] - v[0]) * r[0] + (u[1] - v[1]) * r[1] + (u[2] - v[2]) * r[2]

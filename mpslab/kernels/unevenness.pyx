@@ -8,7 +8,7 @@ row, solid, other, offset, inverse : pairs, see mpslab.kernels.measure
 found : (n, 2, 4), L u [m/s] and b [1/m] of the water, 0 of solids; the fourth numbers are 0
 """
 from mpslab.kernels.lanes cimport four, lane, load, minus, nothing, plus, store, times, widened
-from mpslab.kernels.pair cimport FLUID, weight
+from mpslab.kernels.pair cimport FLUID, dot, weight
 
 # Determinant of the second moment, 1 in a full neighbourhood, 0.04 at a corner of water in 3-D;
 # with less (a film, spray) b is 0.
@@ -83,7 +83,3 @@ def transposed(const int[::1] row, const int[::1] solid, const int[::1] other,
                     total = plus(plus(total, mine, here), -yours, load(&found[j, 0, 0]))
             for a in range(3):
                 out[i, a] = lane(total, a)
-
-
-cdef inline double dot(const double* a, const float* r) noexcept nogil:
-    return a[0] * r[0] + a[1] * r[1] + a[2] * r[2]

@@ -3,11 +3,7 @@
 row, solid, other, offset, inverse : pairs, see mpslab.kernels.measure
 pull : (n, 3) f = g - a_wall, so that p_j = p_i + rho f_j . r_ij across a wall [m/s2]
 """
-from mpslab.kernels.pair cimport FACE, FILLER, FLUID, coefficient, weight
-
-
-cdef inline double dot(const double* f, const float* r) noexcept nogil:
-    return f[0] * r[0] + f[1] * r[1] + f[2] * r[2]
+from mpslab.kernels.pair cimport FACE, FILLER, FLUID, coefficient, dot, weight
 
 
 def flux(const int[::1] row, const int[::1] solid, const int[::1] other,
