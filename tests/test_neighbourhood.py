@@ -192,6 +192,24 @@ def test_adjoint_divergence_and_lean_are_the_sums_of_their_formulas(dim):
     assert_close(near.lean[:, :3], turned.sum(axis=1))
 
 
+@pytest.mark.parametrize("dim", DIMS)
+def test_corrected_divergence_is_the_sum_of_its_formula(dim):
+    near, pairs = setting(dim)
+    u = near.particles.velocity
+    difference = u[None] - u[:, None]
+    moment = dim / near.stencil.n0 * np.einsum("ij,ija,ijb->iab", pairs.g, pairs.r, pairs.r)
+    if dim == 2:
+        moment[:, 1, 1] = 1.0
+    regular = np.linalg.det(moment) >= 0.3
+    moment[~regular] = np.eye(3)
+    sums = np.einsum("ij,ija,ijb->iab", pairs.g, difference, pairs.r)
+    expected = np.einsum("iab,iab->i", np.linalg.inv(moment), sums)
+    assert 0.5 < regular.mean() < 1.0
+    assert_close(near.corrected_divergence(u, 0.3), expected)
+    turned = np.einsum("ij,ijab,ijb->ia", pairs.g, pairs.d, pairs.r)
+    assert_close(near.lean[:, :3], turned)
+
+
 @pytest.mark.parametrize("walls_act", [False, True])
 @pytest.mark.parametrize("dim", DIMS)
 def test_corrected_gradient_is_the_sum_of_its_formula(dim, walls_act):

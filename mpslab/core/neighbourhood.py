@@ -194,6 +194,18 @@ class Neighbourhood:
                            np.ascontiguousarray(velocity), self.correction, self._lean)  # fmt: skip
         return self._lean[:, 3].copy()
 
+    def corrected_divergence(self, velocity, least_determinant):
+        """sum_j u_ij . B_i r_ij w/r^2 of velocities (n, 3) [m/s], (n,) float64 [1/(m s)].
+
+        B_i is the inverse of the second moment, the identity where its determinant is below a
+        least.  Gives `lean` as well, from the same pairs.
+        """
+        self._lean = np.empty((len(self.particles), 4))
+        divergence.corrected(self.row, self.solid, self.other, self.offset, padded(velocity),
+                             self.second, self.correction, self.stencil, least_determinant,
+                             self._lean)  # fmt: skip
+        return self._lean[:, 3].copy()
+
     def close(self, distance):
         """Rows of the pairs that may be closer than a distance [m] where the particles are now.
 

@@ -3,7 +3,8 @@
 row, solid, other, offset, inverse : pairs, see mpslab.kernels.measure
 velocity : (n, 3) [m/s]
 """
-from mpslab.kernels.lanes cimport four, lane, nothing, plus
+from mpslab.kernels.lanes cimport ended, four, lane, load, minus, nothing, plus, store
+from mpslab.kernels.matrix cimport inverted
 from mpslab.kernels.pair cimport along, plus_turned, pull, turned
 
 
@@ -39,26 +40,41 @@ def density_rate(const int[::1] row, const int[::1] other, const float[:, ::1] o
             out[i] = -radius * total
 
 
-def corrected_divergence(const int[::1] row, const int[::1] other, const float[:, ::1] offset,
-                         stencil, const double[:, ::1] velocity, const double[:, :, ::1] c,
-                         double[::1] out):
-    """<div u>_i = (Ds/n0) sum_j u_ij . C_i r_ij w / r^2, exact for linear velocities [1/s].
+def corrected(const int[::1] row, const int[::1] solid, const int[::1] other,
+              const float[:, ::1] offset, const double[:, ::1] velocity,
+              const double[:, :, ::1] second, const double[:, :, ::1] c, stencil,
+              double least_determinant, double[:, ::1] out):
+    """S_i = sum_j D_j r_ij w/r^2 and sum_j u_ij . B_i r_ij w/r^2: (n, 4) out [1/m, 1/(m s)].
 
-    c : (n, 3, 4) correction matrices over the same neighbours; see mpslab.kernels.moments
+    D_j is C_j of a water particle; of a solid it is C_i.  B_i is the inverse of the second moment:
+    the second sum is n0/Ds div u, exact for linear velocities.
+
+    velocity : (n, 4) [m/s], the fourth number 0
+    second : (n, 3, 4), see mpslab.kernels.measure
+    c : (n, 3, 4) correction matrices
+    least_determinant : below it B_i = I
     """
     cdef double factor = stencil.dim / stencil.n0
-    cdef four g, x, y, z
-    cdef Py_ssize_t i, k, j
+    cdef bint flat = stencil.dim == 2
+    cdef double[12] b
+    cdef four here, u, g, lean, of_solids, x, y, z
+    cdef Py_ssize_t i, k, j, a
     with nogil:
         for i in range(out.shape[0]):
-            x = y = z = nothing()
+            here = load(&velocity[i, 0])
+            lean = of_solids = x = y = z = nothing()
             for k in range(row[i], row[i + 1]):
                 j, g = other[k], pull(&offset[k, 0])
-                x = plus(x, velocity[j, 0] - velocity[i, 0], g)
-                y = plus(y, velocity[j, 1] - velocity[i, 1], g)
-                z = plus(z, velocity[j, 2] - velocity[i, 2], g)
-            out[i] = factor * (lane(turned(&c[i, 0, 0], x), 0) + lane(turned(&c[i, 0, 0], y), 1)
-                               + lane(turned(&c[i, 0, 0], z), 2))
+                u = minus(load(&velocity[j, 0]), here)
+                x, y, z = plus(x, lane(u, 0), g), plus(y, lane(u, 1), g), plus(z, lane(u, 2), g)
+                if k < solid[i]:
+                    lean = plus_turned(lean, &c[j, 0, 0], g)
+                else:
+                    of_solids = plus(of_solids, 1.0, g)
+            lean = plus_turned(lean, &c[i, 0, 0], of_solids)
+            inverted(&second[i, 0, 0], factor, flat, least_determinant, b)
+            store(&out[i, 0], ended(lean, lane(turned(b, x), 0) + lane(turned(b, y), 1)
+                                    + lane(turned(b, z), 2)))
 
 
 def adjoint(const int[::1] row, const int[::1] solid, const int[::1] other,

@@ -1,19 +1,16 @@
 """Mixed source with the corrected divergence, exact for linear velocities."""
 
-import numpy as np
-
-from mpslab.kernels.divergence import corrected_divergence
-
 LEAST_DETERMINANT = 0.05
 
 
 def source(near, velocity, number_density, dt, rate, scheme):
     """b_i = -<div u*>_i/dt + s (n_i - n_r)/(n_r dt) [1/s2].
 
-    <div u> with the correction matrix of Khayyer & Gotoh (2011), over all neighbours; n_r is the
-    number density of relaxed water (`Stencil.relaxed`).
+    <div u>_i = (Ds/n0) sum_j u_ij . B_i r_ij w/r^2 with the inverse B of the second moment (Khayyer
+    & Gotoh 2011), at the surface too; n_r is the number density of relaxed water
+    (`Stencil.relaxed`).
     """
-    divergence = np.empty(len(velocity))
-    corrected_divergence(near.row, near.other, near.offset, near.stencil, velocity,
-                         near.inverted(LEAST_DETERMINANT), divergence)  # fmt: skip
-    return (rate * (number_density / near.stencil.relaxed - 1.0) - divergence) / dt
+    stencil = near.stencil
+    divergence = near.corrected_divergence(velocity, LEAST_DETERMINANT)
+    rest = rate * (number_density / stencil.relaxed - 1.0)
+    return (rest - stencil.dim / stencil.n0 * divergence) / dt
