@@ -72,7 +72,7 @@ class Scheme:
     )
     settling: int = key(
         "passes of 'corrected_shifting' before the start, which take the water off the lattice",
-        400,
+        160,
         low=0,
         high=10_000,
     )
@@ -93,7 +93,7 @@ class Scheme:
     hyperviscosity: float = key(
         "share of the differences from particle to particle that velocities lose in the same time "
         "as those of gamma and shifting; longer waves lose far less",
-        0.5,
+        0.3,
         low=0,
         high=0.5,
     )

@@ -9,7 +9,7 @@ time, some steps before.
 from math import hypot, sqrt
 
 # Shares of the time that a wave, or the fastest water, takes for a spacing.
-LARGEST = {"start": 0.2, "predicted": 0.1}
+LARGEST = {"start": 0.3, "predicted": 0.1}
 COURANT = {"start": 0.4, "predicted": 0.2}
 PACE = 0.2
 
@@ -52,8 +52,8 @@ def choose(case, previous, max_speed, compression=0.0):
 def largest(case, gravity):
     """Largest time step where none is given [s]; 0 where nothing moves.
 
-    0.2 d0 / sqrt(g h) with the largest depth h, without gravity 0.2 d0 / speed at the start; half
-    of it where the pressure acts at predicted positions, which damps waves by the step.
+    0.3 d0 / sqrt(g h) with the largest depth h, without gravity 0.3 d0 / speed at the start; a
+    third of it where the pressure acts at predicted positions, which damps waves by the step.
 
     Parameters
     ----------
