@@ -170,9 +170,9 @@ class Time:
     viscous: float = key("dt <= viscous spacing^2 / viscosity", 0.1, above=0, high=1)
     growth: float = key("dt <= growth last dt", 1.1, above=1, high=10)
     maximum: float = key(
-        "largest dt; 0 for 0.3 spacing / sqrt(gravity depth), a third with projection 'predicted'; "
+        "largest dt; 0 for 0.3 spacing / sqrt(gravity depth), 0.1 with projection 'predicted'; "
         "in a tank that moves with the strongest pull on water at rest for gravity; without any "
-        "the largest speed at the start takes the place of the root",
+        "0.2 or 0.1 spacing / largest speed at the start",
         0.0,
         unit="s",
         low=0,
