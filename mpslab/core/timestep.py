@@ -10,7 +10,7 @@ from math import hypot, sqrt
 
 # Shares of the time that a wave, or the fastest water, takes for a spacing.
 LARGEST = {"start": 0.3, "predicted": 0.1}
-WEIGHTLESS = {"start": 0.2, "predicted": 0.1}  # the same where nothing weighs: a stream meets a wall
+WEIGHTLESS = {"start": 0.2, "predicted": 0.1}  # LARGEST where nothing weighs
 COURANT = {"start": 0.4, "predicted": 0.2}
 PACE = 0.2
 
