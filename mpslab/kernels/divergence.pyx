@@ -58,7 +58,7 @@ def corrected(const int[::1] row, const int[::1] solid, const int[::1] other,
     cdef bint flat = stencil.dim == 2
     cdef double[12] b
     cdef four here, u, g, lean, of_solids, x, y, z
-    cdef Py_ssize_t i, k, j, a
+    cdef Py_ssize_t i, k, j
     with nogil:
         for i in range(out.shape[0]):
             here = load(&velocity[i, 0])
