@@ -206,6 +206,20 @@ class Neighbourhood:
                              self._lean)  # fmt: skip
         return self._lean[:, 3].copy()
 
+    def largest_together(self, rate, mine):
+        """The largest that water beside one another shares of values (n,) float64; 0 at least.
+
+        Of a particle that is the lesser of its own value and the mean of those of the water within
+        the radius, its own among them: so one particle alone counts little.
+
+        Parameters
+        ----------
+        mine : slice
+            Particles to look at.
+        """
+        return divergence.largest_together(self.row, self.solid, self.other, self.particles.role,
+                                           rate, mine.start, mine.stop)  # fmt: skip
+
     def close(self, distance):
         """Rows of the pairs that may be closer than a distance [m] where the particles are now.
 

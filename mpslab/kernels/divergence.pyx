@@ -5,7 +5,7 @@ velocity : (n, 3) [m/s]
 """
 from mpslab.kernels.lanes cimport ended, four, lane, load, minus, nothing, plus, store
 from mpslab.kernels.matrix cimport inverted
-from mpslab.kernels.pair cimport along, plus_turned, pull, turned
+from mpslab.kernels.pair cimport FLUID, along, plus_turned, pull, turned
 
 
 def divergence(const int[::1] row, const int[::1] other, const float[:, ::1] offset, stencil,
@@ -110,3 +110,24 @@ def adjoint(const int[::1] row, const int[::1] solid, const int[::1] other,
                 out[i, a] = lane(total, a)
                 div -= velocity[i, a] * lane(total, a)
             out[i, 3] = div
+
+
+def largest_together(const int[::1] row, const int[::1] solid, const int[::1] other,
+                     const signed char[::1] role, const double[::1] rate, Py_ssize_t begin,
+                     Py_ssize_t end):
+    """Largest over water of the lesser of its rate and the mean rate of it and the water beside it.
+
+    0 if that is negative.
+    """
+    cdef double best = 0.0, total
+    cdef Py_ssize_t i, k
+    with nogil:
+        for i in range(begin, end):
+            if role[i] != FLUID or rate[i] <= best:
+                continue
+            total = rate[i]
+            for k in range(row[i], solid[i]):
+                total += rate[other[k]]
+            total = min(rate[i], total / (1 + solid[i] - row[i]))
+            best = max(best, total)
+    return best

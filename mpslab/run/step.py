@@ -170,8 +170,9 @@ def _assemble(flow, graded, pull, dt):
         n = surface.filled_density(n, graded, flow.stencil)
     rate = density_rate(flow.case, flow.time)
     right = flow.source.source(near, velocity, n, dt, rate, flow.case.scheme)
-    mine = flow.domain.owned
-    flow.compression = dt * float(right[mine].max(initial=0.0, where=particles.fluid[mine]))
+    if flow.case.scheme.projection == "start":
+        flow.domain.refresh(right)
+        flow.compression = dt * near.largest_together(right, flow.domain.owned)
     if flow.extrapolates:
         right += wall_pressure.flux(near, stencil, terms, pull)
     domain = flow.domain if flow.solver.BY_SLAB else None
