@@ -4,6 +4,7 @@
 #ifndef MPSLAB_LANES_H
 #define MPSLAB_LANES_H
 
+#include <math.h>
 #include <string.h>
 #ifdef __AVX__
 #include <immintrin.h>
@@ -45,7 +46,31 @@ INLINE double lane(four v, int axis) { return v[axis]; }
 /* The vector with x as its fourth number. */
 INLINE four ended(four v, double x) { v[3] = x; return v; }
 
+/* x, x, x, x */
+INLINE four same(double x) { return (four){x, x, x, x}; }
+
 INLINE four minus(four a, four b) { return a - b; }
+
+INLINE four product(four a, four b) { return a * b; }
+
+INLINE four quotient(four a, four b) { return a / b; }
+
+/* The number of each lane, or x where that is more. */
+INLINE four at_least(double x, four v) {
+    four_masks more = v > x;
+    return (four)(((four_masks)v & more) | ((four_masks)same(x) & ~more));
+}
+
+INLINE four root(four v) {
+#ifdef __AVX__
+    return (four)_mm256_sqrt_pd((__m256d)v);
+#else
+    return (four){sqrt(v[0]), sqrt(v[1]), sqrt(v[2]), sqrt(v[3])};
+#endif
+}
+
+/* The sum of the four numbers. */
+INLINE double added(four v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 
 INLINE four times(double factor, four v) { return factor * v; }
 
@@ -87,7 +112,7 @@ INLINE four gathered(const double *x, const int *at) {
             four_masks wanted = (four_masks){0, 1, 2, 3} < count - k;                      \
             sum += (four)((four_masks)taken(value + k) & wanted) * gathered(x, place + k); \
         }                                                                                  \
-        return (sum[0] + sum[1]) + (sum[2] + sum[3]);                                      \
+        return added(sum);                                                                 \
     }
 
 ROW_SUM(row_of_singles, float, widened)

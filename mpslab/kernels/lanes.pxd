@@ -11,7 +11,13 @@ cdef extern from "lanes.h" nogil:
     void store_rounded(float* row, four v) noexcept
     double lane(four v, int axis) noexcept
     four ended(four v, double x) noexcept
+    four same(double x) noexcept
     four minus(four a, four b) noexcept
+    four product(four a, four b) noexcept
+    four quotient(four a, four b) noexcept
+    four at_least(double x, four v) noexcept
+    four root(four v) noexcept
+    double added(four v) noexcept
     four times(double factor, four v) noexcept
     four plus(four total, double factor, four v) noexcept
     four nearest(four v, double width) noexcept

@@ -4,8 +4,8 @@ from libc.math cimport sqrtf
 from mpslab.kernels.lanes cimport (
     ended, four, lane, load, minus, nearest, nothing, plus, store, store_rounded, times, widened,
 )
-from mpslab.kernels.pair cimport FLUID, LANES
-from mpslab.kernels.smooth cimport dot, places, pulled, turn
+from mpslab.kernels.pair cimport FLUID, LANES, weight
+from mpslab.kernels.smooth cimport evened, places, pulled, square
 
 # Rows of so many pairs are taken through all three parts at a time, and stay in the cache.
 cdef enum:
@@ -44,7 +44,7 @@ def measure(const double[:, ::1] position, const signed char[::1] role, const in
             invert(row[begin], row[end], floor, inverse)
             for i in range(begin, end):
                 if smooth and role[i] == FLUID and solid[i] < row[i + 1]:
-                    slide(solid[i], row[i + 1], radius, spacing, dim, offset, straight)
+                    slide(solid[i], row[i + 1], radius, spacing, dim, inverse, offset, straight)
                 add_up(i, row, radius, offset, inverse, first, second)
             begin = end
 
@@ -113,34 +113,31 @@ cdef inline void invert(Py_ssize_t begin, Py_ssize_t end, float floor,
 
 
 cdef inline void slide(Py_ssize_t begin, Py_ssize_t end, double radius, double spacing, int dim,
-                       float[:, ::1] offset, float[:, ::1] straight) noexcept nogil:
+                       const float[::1] inverse, float[:, ::1] offset,
+                       float[:, ::1] straight) noexcept nogil:
     """Slide the solids of a row until sum_j w r_ij/r^2 points along their normal.
 
     See mpslab.kernels.smooth; r_ij as it was goes to `straight`.
     """
     cdef Py_ssize_t k
-    cdef int a, n, count
-    cdef double weight = 0
-    cdef double[3] nowhere, push, smooth, slid
-    cdef double[12] aside
-    for a in range(3):
-        nowhere[a] = push[a] = smooth[a] = 0
+    cdef double g, pulls = 0
+    cdef four r, push = nothing()
+    cdef four[3] aside, total
     for k in range(begin, end):
-        for a in range(3):
-            straight[k, a] = offset[k, a]
-        weight += pulled(offset[k, 0], offset[k, 1], offset[k, 2], nowhere, radius, push)
-    if dot(push, push) == 0.0:
+        r = widened(&offset[k, 0])
+        store_rounded(&straight[k, 0], r)
+        g = weight(inverse[k], radius) * inverse[k] * inverse[k]
+        push = plus(push, g, r)
+        pulls += g
+    if square(push) == 0.0:
         return
-    count = places(push, 0.25 * spacing, dim, aside)
-    for n in range(count):
-        for k in range(begin, end):
-            pulled(offset[k, 0], offset[k, 1], offset[k, 2], aside + 3 * n, radius, smooth)
-    for a in range(3):
-        slid[a] = push[a]
-    turn(smooth, slid)
+    places(push, 0.25 * spacing, dim, aside)
+    total[0] = total[1] = total[2] = nothing()
     for k in range(begin, end):
-        for a in range(3):
-            offset[k, a] = <float>(offset[k, a] + (slid[a] - push[a]) / weight)
+        pulled(widened(&offset[k, 0]), aside, radius, total)
+    push = ended(times(1.0 / pulls, minus(evened(total, push), push)), 0.0)
+    for k in range(begin, end):
+        store_rounded(&offset[k, 0], plus(widened(&offset[k, 0]), 1.0, push))
 
 
 cdef inline void add_up(Py_ssize_t i, const int[::1] row, float radius, float[:, ::1] offset,

@@ -3,7 +3,7 @@ from libc.math cimport sqrt
 
 from mpslab.kernels.lanes cimport four, lane, load, minus, nearest, nothing, plus, times
 from mpslab.kernels.pair cimport FLUID, LANES, distance, has_pressure, plus_turned, weight, wrap
-from mpslab.kernels.smooth cimport dot, places, pulled, turn
+from mpslab.kernels.smooth cimport evened, places, pulled, square
 
 # Neighbours of a particle whose distances are taken together; a multiple of LANES.
 cdef enum:
@@ -62,24 +62,16 @@ cdef inline four along_normal(four of_solids, const double* position, Py_ssize_t
                               const int* other, Py_ssize_t begin, Py_ssize_t end, double radius,
                               double width, double quarter, int dim) noexcept nogil:
     """The part of sum_j w r_ij/r^2 over the solids of a particle that is along their normal."""
-    cdef double[3] push, smooth
-    cdef double[12] aside
-    cdef double[4] whole
-    cdef four r, here = load(position + 4 * i)
+    cdef four[3] aside, total
+    cdef four here = load(position + 4 * i)
     cdef Py_ssize_t k
-    cdef int a, n, count
-    for a in range(3):
-        push[a], smooth[a] = lane(of_solids, a), 0.0
-    if dot(push, push) == 0.0:
+    if square(of_solids) == 0.0:
         return of_solids
-    count = places(push, quarter, dim, aside)
+    places(of_solids, quarter, dim, aside)
+    total[0] = total[1] = total[2] = nothing()
     for k in range(begin, end):
-        r = nearest(minus(load(position + 4 * other[k]), here), width)
-        for n in range(count):
-            pulled(lane(r, 0), lane(r, 1), lane(r, 2), aside + 3 * n, radius, smooth)
-    turn(smooth, push)
-    whole[0], whole[1], whole[2], whole[3] = push[0], push[1], push[2], 0.0
-    return load(whole)
+        pulled(nearest(minus(load(position + 4 * other[k]), here), width), aside, radius, total)
+    return evened(total, of_solids)
 
 
 cdef inline void pulls(const double* position, Py_ssize_t i, const int* other, int count,
