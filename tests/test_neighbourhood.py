@@ -210,6 +210,20 @@ def test_corrected_divergence_is_the_sum_of_its_formula(dim):
     assert_close(near.lean[:, :3], turned)
 
 
+@pytest.mark.parametrize("dim", DIMS)
+def test_largest_together_is_that_of_a_particle_and_the_water_beside_it(dim):
+    near, pairs = setting(dim)
+    rate = np.random.default_rng(2).normal(size=len(pairs.water))
+    rate[~pairs.water] = 100.0
+    beside = (pairs.distance < 2.6) & pairs.water
+    mean = (rate + beside @ np.where(pairs.water, rate, 0.0)) / (1.0 + beside.sum(axis=1))
+    shared = np.where(pairs.water, np.minimum(rate, mean), 0.0)
+    half = len(rate) // 2
+    for mine in (slice(0, half), slice(half, len(rate))):
+        assert near.largest_together(rate, mine) == pytest.approx(shared[mine].max())
+    assert near.largest_together(-np.abs(rate), slice(0, half)) == 0.0
+
+
 @pytest.mark.parametrize("walls_act", [False, True])
 @pytest.mark.parametrize("dim", DIMS)
 def test_corrected_gradient_is_the_sum_of_its_formula(dim, walls_act):
