@@ -8,7 +8,7 @@ from mpslab.theory import waves
 from validation.comparison import Comparison
 from validation.wave_analysis import travel
 
-PERIODS = 2  # that harmonics are taken over
+PERIODS = 4  # that harmonics are taken over
 SETTLE = 1.5  # periods after the soft start until the wave is steady where it has come
 SLOPES = ("slope-2", "slope-3", "slope-10")
 
@@ -68,7 +68,7 @@ def _start(run, alone):
 
 
 def _separate(run, alone):
-    """Incident and reflected waves over two periods."""
+    """Incident and reflected waves."""
     period, names = run.case.wavemaker.period, [gauge.name for gauge in run.case.gauge]
     start = _start(run, alone)
     amplitudes = np.array([
