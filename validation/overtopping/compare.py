@@ -7,9 +7,8 @@ from mpslab.analysis.harmonics import harmonics
 from validation.comparison import Comparison
 from validation.wave_analysis import travel
 
-PERIODS = 3  # that the discharge is taken over
+PERIODS, INCIDENT = 5, 4  # that the discharge and the incident wave are taken over
 SETTLE = 1.5  # periods after the soft start until the wave is steady where it has come
-SOONER = 1.0  # the same for the incident wave: longer, and the window has no whole period
 CREST = "crest"
 FINE = 0.0025  # m: coarser, the layer on the crest is not resolved
 
@@ -92,10 +91,9 @@ class _Overtopped:
         """Height of the incident waves, twice the first harmonic [m]."""
         run, gauges = self.run, [g for g in self.run.case.gauge if g.name.startswith("G")]
         x = np.array([gauge.x for gauge in gauges])
-        ready = run.case.wavemaker.start + SOONER * self.period
-        start = ready + 2.0 * travel(run) - travel(run, x.min())
+        start = self.start + travel(run) - travel(run, x.min())
         amplitudes = np.array([
-            harmonics(*run.gauge(gauge.name), self.period, start, 1)[1:] for gauge in gauges
+            harmonics(*run.gauge(gauge.name), self.period, start, INCIDENT)[1:] for gauge in gauges
         ])  # fmt: skip
         found = reflection.of_harmonics(amplitudes, x, self.period, run.depth, run.gravity)
         return found.incident_height
