@@ -7,7 +7,7 @@ from mpslab.analysis.harmonics import harmonics
 from validation.comparison import Comparison
 from validation.wave_analysis import travel
 
-PERIODS, INCIDENT = 5, 4  # that the discharge and the incident wave are taken over
+PERIODS, INCIDENT = 5, 3  # that the discharge and the incident wave are taken over
 SETTLE = 1.5  # periods after the soft start until the wave is steady where it has come
 CREST = "crest"
 FINE = 0.0025  # m: coarser, the layer on the crest is not resolved
