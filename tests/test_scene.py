@@ -117,6 +117,21 @@ def test_bed_and_paddle_stand_where_they_are(backend):
     assert not drawn[row, column]
 
 
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_a_solid_of_any_shape_is_drawn_where_its_particles_are(backend):
+    view, middle = VIEWS["side"], np.array([0.05, 0.016, 0.02])
+    ball = block(16, 16, 16) + middle - 8 * D0
+    ball = ball[np.linalg.norm(ball - middle, axis=1) < 0.01]
+    image = scene.draw(np.zeros((0, 3)), D0, view, solids=[ball], backend=backend).image
+    drawn = (image < 250).any(axis=2)
+    rows, columns = np.nonzero(drawn)
+    assert np.all(image[drawn][:, 0] >= image[drawn][:, 2])  # brown
+    seen = np.array([columns.mean(), rows.mean()])
+    assert np.abs(seen - view.project(middle)).max() < 1.5
+    (left, _), (right, _) = view.project([middle - [0.01, 0, 0], middle + [0.01, 0, 0]])
+    assert np.ptp(columns) == pytest.approx(right - left, rel=0.1)
+
+
 def test_both_backends_draw_the_same_picture():
     if scene.available() != "pyvista":
         pytest.skip("no pyvista")

@@ -70,9 +70,10 @@ class Scene:
 
 def draw(
     water, spacing, view, values=None, cmap="viridis", limits=None, as_surface=False, bed=None,
-    ground=None, width=None, period=0.0, paddle_x=None, blocks=(), colour=WATER, backend=None,
+    ground=None, width=None, period=0.0, paddle_x=None, blocks=(), solids=(), colour=WATER,
+    backend=None,
 ):  # fmt: skip
-    """Draw the water of a frame, with bed, paddle and blocks, on white.
+    """Draw the water of a frame, with bed, paddle and solids, on white.
 
     Parameters
     ----------
@@ -100,6 +101,8 @@ def draw(
         Face of the piston, which reaches up to the upper limit of the view.
     blocks : sequence of ((x, y, z), (x, y, z)) or ((x, y, z), (x, y, z), colour)
         Solid boxes, from one corner to the other [m].
+    solids : sequence of (k, 3) array_like [m]
+        Particles of each solid of any shape.
     colour : (float, float, float) [0 to 1]
         Of water and spray without values.
     backend : str, optional
@@ -125,7 +128,10 @@ def draw(
     paint = _Paint(values, cmap, limits, colour)
     scene = Scene(view, 0.5 * spacing)
     width = view.box[1][1] if width is None else width
-    _add_solids(scene, spacing, bed, ground, width, paddle_x, blocks)
+    _add_flat_sides(scene, spacing, bed, ground, width, paddle_x, blocks)
+    for particles in solids:
+        surface = find_surface(particles, spacing, window=view.box[0])
+        _add_mesh(scene, surface, np.tile(BLOCK, (len(surface.points), 1)), 0.0)
     if as_surface:
         _add_surface(scene, water, spacing, values, paint, period, bed)
     else:
@@ -174,17 +180,24 @@ def _add_surface(scene, water, spacing, values, paint, period, bed):
     """The surface, and spray as spheres."""
     view = scene.view
     surface = find_surface(water, spacing, values, period, view.box[0], bed)
-    every = np.ones(len(surface.points), bool)
-    facing = surface.normals @ (view.axes * [[1.0], [1.0], [-1.0]]).T
-    openness = DARKEST + (1.0 - DARKEST) * surface.openness
-    scene.points, scene.triangles = surface.points, surface.triangles
-    scene.point_colours = lit(paint(surface.values, every), facing, GLOSS, openness)
+    _add_mesh(scene, surface, paint(surface.values, np.ones(len(surface.points), bool)), GLOSS)
     (left, right), _, _ = view.box
     drops = surface.spray & (water[:, 0] >= left) & (water[:, 0] <= right)
     scene.spheres, scene.sphere_colours = water[drops], paint(values, drops)
 
 
-def _add_solids(scene, spacing, bed, ground, width, paddle_x, blocks):
+def _add_mesh(scene, surface, colours, gloss):
+    """A surface in colours (n, 3), lit."""
+    facing = surface.normals @ (scene.view.axes * [[1.0], [1.0], [-1.0]]).T
+    openness = DARKEST + (1.0 - DARKEST) * surface.openness
+    triangles = surface.triangles + len(scene.points)
+    scene.points = np.concatenate([scene.points, surface.points])
+    scene.triangles = np.concatenate([scene.triangles, triangles])
+    shades = lit(colours, facing, gloss, openness)
+    scene.point_colours = np.concatenate([scene.point_colours, shades])
+
+
+def _add_flat_sides(scene, spacing, bed, ground, width, paddle_x, blocks):
     """Bed, paddle and blocks as flat sides."""
     (left, right), _, (bottom, top) = scene.view.box
     if bed is not None:

@@ -15,6 +15,7 @@ from mpslab.analysis.scenes import scene
 from mpslab.analysis.scenes.view import fitted
 from mpslab.analysis.snapshots import middle_slice
 from mpslab.core.kinds import FLUID, GATE, GATE_DUMMY, PISTON
+from mpslab.core.particles import FIRST_SOLID
 
 UNITS = 960  # of the layout across a picture, however many pixels it has
 HEADING, CLOCK, SCALE, BAR = 20, 26, 42, 54  # heights [units]: a line, time, ticks, colour bar
@@ -262,6 +263,7 @@ class _InSpace:
             width=self.width,
             period=self.width if shot.case["tank"].get("periodic") else 0.0,
             paddle_x=_face(frame, self.spacing), blocks=self._blocks(frame),
+            solids=self._solids(frame),
         )  # fmt: skip
         self.image.set_data(picture.image)
         return self.sheet.image(time)
@@ -277,6 +279,12 @@ class _InSpace:
             half = 0.5 * self.spacing
             blocks.append((gate.min(axis=0) - half, gate.max(axis=0) + half, (0.70, 0.27, 0.49)))
         return blocks
+
+    def _solids(self, frame):
+        """Particles of each solid of any shape."""
+        case, body = self.shot.case, frame["body"]
+        first = FIRST_SOLID + len(case.get("obstacle", ())) + len(case.get("gate", ()))
+        return [frame["position"][body == one] for one in range(first, int(body.max()) + 1)]
 
 
 def values_of(frame, field):
