@@ -128,7 +128,7 @@ def test_a_solid_of_any_shape_is_drawn_where_its_particles_are(backend):
     assert np.all(image[drawn][:, 0] >= image[drawn][:, 2])  # brown
     seen = np.array([columns.mean(), rows.mean()])
     assert np.abs(seen - view.project(middle)).max() < 1.5
-    (left, _), (right, _) = view.project([middle - [0.01, 0, 0], middle + [0.01, 0, 0]])
+    (left, _), (right, _) = view.project(middle + np.array([[-0.01, 0, 0], [0.01, 0, 0]]))
     assert np.ptp(columns) == pytest.approx(right - left, rel=0.1)
 
 

@@ -161,9 +161,8 @@ class Time:
         high=1,
     )
     compression: float = key(
-        "dt <= compression / largest rate at which water runs together before the pressure acts, in "
-        "the mean over a particle and the water beside it; "
-        "not with projection 'predicted'",
+        "dt <= compression / largest rate at which water runs together before the pressure acts, "
+        "in the mean over a particle and the water beside it; not with projection 'predicted'",
         0.01,
         above=0,
         high=10,
