@@ -80,7 +80,8 @@ class Cells:
         grid = self.lower, self.per, self.count, blocks
         cells.mark(position, others.view(np.uint8), *grid, marks.ravel())
         for axis in range(3):
-            line, before = np.moveaxis(marks, axis, 0), np.moveaxis(marks.copy(), axis, 0)
+            line = marks.swapaxes(0, axis)
+            before = line.copy()
             line[1:] |= before[:-1]
             line[:-1] |= before[1:]
         cells.marked(position, ones.view(np.uint8), *grid, marks.ravel(), out)

@@ -6,6 +6,8 @@ numbers, Z^T A Z, is small.  It is solved directly in every iteration, or, where
 cost too much, by conjugate gradients with a deflation of their own, whose groups are four of these.
 """
 
+from functools import lru_cache
+
 import numpy as np
 
 from mpslab.kernels import coarse, sparse
@@ -228,7 +230,13 @@ def number_groups(several):
     Groups are numbered slab by slab, in a slab layer by layer, and in a layer from both sides by
     turns, so that across a periodic tank first and last are near: the band is narrow.
     """
-    groups = np.unique(np.concatenate(several))
+    return _numbered(np.unique(np.concatenate(several)).tobytes())
+
+
+@lru_cache(maxsize=2)
+def _numbered(keys):
+    """The same of sorted keys, as bytes: mostly they are those of the last step."""
+    groups = np.frombuffer(keys, np.int64)
     slab, aside, up = groups // SIDE**2, groups // SIDE % SIDE, groups % SIDE
     places, aside = np.unique(aside, return_inverse=True)
     aside = np.minimum(2 * aside, 2 * (len(places) - 1 - aside) + 1)

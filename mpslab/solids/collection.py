@@ -121,4 +121,7 @@ class Solids:
 
     def accelerates(self, particles):
         """Mask of the solids' particles whose acceleration the water feels, (n,) bool."""
-        return np.isin(particles.body, self.felt)
+        found = np.zeros(len(particles), bool)
+        for body in self.felt:
+            found |= particles.body == body
+        return found

@@ -3,10 +3,12 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 import numpy as np
 
 SAMPLES = 400  # to a period: finds the extremes of a sine to 3e-5 of its amplitude
+RECENT = 4  # times whose displacement is kept: a step asks for the same two several times
 
 
 @dataclass(frozen=True)
@@ -98,6 +100,7 @@ def from_motion(
     stroke, foremost = float(np.max(run) - np.min(run)), float(np.max(run))
     backmost, farthest = float(np.min(always)), float(np.max(always))
 
+    @lru_cache(maxsize=RECENT)
     def displacement(t: float) -> float:
         return 0.0 if t <= 0.0 else float(motion(t))
 

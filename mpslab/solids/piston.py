@@ -140,7 +140,13 @@ class Piston(Solid):
     def cover(self, particles, face):
         """Make fillers of the bed behind the face: as faces they would tie the corner to p = 0."""
         rows = np.flatnonzero((particles.body == TANK) & (particles.position[:, 0] < self.near))
-        rows = rows[np.isin(particles.gid[rows], self.bed, kind="sort")]
+        rows = rows[_among(particles.gid[rows], self.bed)]
         behind = particles.position[rows, 0] < face - self.margin
         particles.role[rows] = np.where(behind, FILLER, FACE)
         particles.pressure[rows[behind]] = 0.0
+
+
+def _among(numbers, some):
+    """Which of (n,) numbers are among some in ascending order, (n,) bool."""
+    at = np.searchsorted(some, numbers)
+    return np.append(some, -1)[at] == numbers
