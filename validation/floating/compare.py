@@ -76,8 +76,8 @@ def added(case):
     x, y = (side * count for side in (tank.length, tank.width))
     x, y, height = np.meshgrid(x, y, z, indexing="ij")
     square = x**2 + y**2 + height**2
-    square[square == 0.0] = np.inf
-    sums = np.sum(sign * (square - 3.0 * height**2) / square**2.5)
+    square[square == 0.0] = np.inf  # the body itself
+    sums = np.sum(sign * (square**-1.5 - 3.0 * height**2 * square**-2.5))
     strength = 0.5 / (1.0 - 0.5 * given.radius**3 * sums)
     return 3.0 * strength - 1.0
 
