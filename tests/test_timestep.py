@@ -200,10 +200,15 @@ def slap(seed, **changes):
     return np.diff(energy).max() / energy[0]
 
 
-def test_water_that_is_about_to_hit_a_wall_shortens_the_step_and_makes_little_energy():
-    """Long steps that do not see it coming throw particles about, and make more than all there was.
+def test_water_that_hits_a_wall_makes_little_energy():
+    """What is left is in the jet up the wall: 0.16 to 0.31 % in eight seeds, where the blow takes
+    14 %. The band is for the mean of four.
+    """
+    assert np.mean([slap(seed) for seed in range(4)]) < 5e-3
 
-    What is left is in the jet up the wall: 0.3 to 2 % in eight seeds, in the mean 0.9, where the
-    blow takes 14 %. The band is for the mean of four.
+
+def test_water_that_is_about_to_hit_a_wall_shortens_long_steps():
+    """Twice as long, they throw particles about if they do not see it coming, and make more energy
+    than all there was; so they make 0.3 to 2 % in eight seeds, in the mean 0.9.
     """
     assert np.mean([slap(seed, **{"time.maximum": 8e-4}) for seed in range(4)]) < 3e-2
