@@ -21,6 +21,7 @@ from mpslab.parallel import balance
 from mpslab.parallel.rebalance import SOLID
 from mpslab.parallel.slabs import WIDTH, make_slabs
 from mpslab.pressure import deflation, equation
+from mpslab.pressure.groups import SIDE, keys, number_groups
 from mpslab.solids import filling, layout
 from mpslab.solids.piston import make_paddle
 
@@ -126,21 +127,21 @@ def _groups(slab, up, aside, water):
     slab, up = np.repeat(wet, len(aside), axis=0).T
     cell, merged = np.column_stack([np.tile(aside, len(wet)), up]), 1
     while True:
-        groups, number = deflation.number_groups([deflation.keys(slab, cell, merged)])
+        groups, number = number_groups([keys(slab, cell, merged)])
         half = _half(groups, number)
         if len(groups) * half**2 <= deflation.WORK * water.sum():
-            return np.bincount(groups // deflation.SIDE**2, minlength=len(water)), half
+            return np.bincount(groups // SIDE**2, minlength=len(water)), half
         merged *= 2
 
 
 def _half(groups, number):
     """Most groups from a group to one beside it, above it, or in the next slab."""
-    side, half = deflation.SIDE, 0
-    slab, aside, up = groups // side**2, groups // side % side, groups % side
+    half = 0
+    slab, aside, up = groups // SIDE**2, groups // SIDE % SIDE, groups % SIDE
     first, count = aside.min(), np.ptp(aside) + 1
     for step in itertools.product((0, 1), (-1, 0, 1), (-1, 0, 1)):
         around = first + (aside - first + step[1]) % count
-        beside = ((slab + step[0]) * side + around) * side + up + step[2]
+        beside = ((slab + step[0]) * SIDE + around) * SIDE + up + step[2]
         at = np.minimum(np.searchsorted(groups, beside), len(groups) - 1)
         half = max(half, np.max((number[at] - number)[groups[at] == beside], initial=0))
     return int(half)

@@ -76,11 +76,13 @@ def absorbed(changes, until):
         return {"piston": run.table("piston").tolist(), **digest(everything)}
 
 
-def nested(changes, count, dt):
-    """As `steps`, with `deflated`, and no factor that is worth its cost but that of the slabs."""
+def nested(changes, count, dt, work=0.0):
+    """As `steps`, with `deflated`, and no factor that is worth its cost but that of the slabs, or
+    such as take little work.
+    """
     from mpslab.pressure import deflation
 
-    usual, deflation.WORK = deflation.WORK, 0.0
+    usual, deflation.WORK = deflation.WORK, work
     try:
         return steps({**changes, "scheme.solver": "deflated"}, count, dt)
     finally:

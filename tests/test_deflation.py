@@ -6,7 +6,7 @@ from test_slabs import system_by_slab
 from test_solvers import as_matrix
 
 from mpslab.kernels import coarse
-from mpslab.pressure import deflation
+from mpslab.pressure import deflation, groups
 from mpslab.pressure.conjugate_gradient import by_diagonal, conjugate_gradient
 from mpslab.pressure.deflation import Band, Deflation, Nested
 from mpslab.pressure.solvers import deflated, scg
@@ -136,12 +136,44 @@ def test_a_coarse_solve_that_does_not_converge_is_reported(
 def test_neighbours_around_a_periodic_tank_are_near_in_the_band():
     aside, up = np.meshgrid(np.arange(-3, 6), np.arange(4))
     cell = np.column_stack([aside.ravel(), up.ravel()])
-    groups, number = deflation.number_groups([deflation.keys(np.zeros(36, int), cell, 1)])
-    place = number[np.searchsorted(groups, deflation.keys(np.zeros(36, int), cell, 1))]
+    found, number = groups.number_groups([groups.keys(np.zeros(36, int), cell, 1)])
+    place = number[np.searchsorted(found, groups.keys(np.zeros(36, int), cell, 1))]
     place = place.reshape(aside.shape)
     assert sorted(number) == list(range(36))
     assert np.abs(place - np.roll(place, 1, axis=1)).max() == 2
     assert np.abs(np.diff(place, axis=0)).max() == 9
+
+
+@pytest.fixture
+def towering(monkeypatch):
+    """The system of a long layer of water with a tower in its middle, and a small budget."""
+    x, y, z = np.meshgrid(np.arange(48), np.arange(3), np.arange(60), indexing="ij")
+    there = (z < 4) | ((x > 20) & (x < 26))
+    system, _ = system_by_slab(position=np.column_stack([x[there], y[there], z[there]]))
+    monkeypatch.setattr(deflation, "WORK", 10)
+    return system
+
+
+def test_a_tower_of_water_does_not_make_the_band_wide(towering, monkeypatch):
+    made = Deflation(towering, TOLERANCE)
+    monkeypatch.setattr(deflation, "WORK", 1e9)
+    usual = Deflation(towering, TOLERANCE)
+    assert isinstance(made.coarse, Band)
+    assert 2 * made.coarse.band.shape[1] < usual.coarse.band.shape[1]
+    assert sorted(made.groups) == sorted(usual.groups)
+    np.testing.assert_array_equal(made.groups[made.group], usual.groups[usual.group])
+    r = np.random.default_rng(10).normal(size=len(towering))
+    left = [r.copy(), r.copy()]
+    made.project(left[0])
+    usual.project(left[1])
+    np.testing.assert_allclose(left[0], left[1], atol=1e-10)
+
+
+def test_groups_keep_their_numbers_where_no_others_make_the_band_cheap(towering, monkeypatch):
+    monkeypatch.setattr(deflation, "WORK", 0.5)
+    made = Deflation(towering, TOLERANCE)
+    assert isinstance(made.coarse, Nested)
+    assert np.all(np.diff(made.groups // groups.SIDE**2) >= 0)
 
 
 def test_banded_factor_solves_as_a_dense_one():

@@ -36,6 +36,10 @@ def steps(changes, solver="scg", count=10):
 
 
 NESTED = ["nested", PERIODIC, 10, DT]
+TOWER = {"tank.length": 0.2, "tank.depth": 0.01, "tank.height": 0.2,
+         "water": [{"from": [0.0, 0.0, 0.0], "to": [0.2, 0.0, 0.01]},
+                   {"from": [0.08, 0.0, 0.01], "to": [0.11, 0.0, 0.15]}]}  # fmt: skip
+NARROW = ["nested", TOWER, 5, DT, 5.0]
 EVERYWHERE = [steps(PISTON, solver, 15) for solver in SOLVERS]
 CALLS = {
     1: EVERYWHERE,
@@ -43,7 +47,7 @@ CALLS = {
     3: [
         *EVERYWHERE,
         *(steps(changes, solver) for changes in CASES.values() for solver in SOLVERS),
-        steps(PISTON), steps(STATIC), steps(SHAPES), ["sums"], NESTED,
+        steps(PISTON), steps(STATIC), steps(SHAPES), ["sums"], NESTED, NARROW,
     ],
     4: [
         *EVERYWHERE,
@@ -90,6 +94,13 @@ def test_nested_deflation_has_the_same_bytes_and_as_many_iterations_on_3_ranks()
     assert one["position"] != direct["position"]
     assert all(abs(a - b) <= 1 for a, b in
                zip(one["iterations"], direct["iterations"], strict=True))  # fmt: skip
+
+
+def test_groups_that_a_tower_of_water_makes_narrow_give_the_same_bytes_on_3_ranks():
+    one, usual = alone(*NARROW), alone(*steps(TOWER, "deflated", 5))
+    assert on(3, NARROW) == one
+    assert one["position"] != usual["position"]  # another order of the same sums
+    assert one["iterations"] == usual["iterations"]
 
 
 def test_static_cuts_give_the_same_bytes_as_the_best_ones():

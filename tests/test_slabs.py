@@ -18,11 +18,12 @@ RADIUS = 2.1
 TANK = {"tank.width": 0.016, "tank.periodic": True, "particles.jitter": 0.01}
 
 
-def system_by_slab(long=24, high=5, by_slab=True):
-    """Shaken block of water in slabs along x, its top free surface."""
-    grid = np.meshgrid(*map(np.arange, (long, high, high)), indexing="ij")
-    position = np.stack(grid, axis=-1).reshape(-1, 3).astype(float)
-    position += np.random.default_rng(1).uniform(-0.1, 0.1, position.shape)
+def system_by_slab(long=24, high=5, by_slab=True, position=None):
+    """Shaken block of water, or other places (n, 3), in slabs along x, its top free surface."""
+    if position is None:
+        grid = np.meshgrid(*map(np.arange, (long, high, high)), indexing="ij")
+        position = np.stack(grid, axis=-1).reshape(-1, 3)
+    position = position + np.random.default_rng(1).uniform(-0.1, 0.1, position.shape)
     particles = particles_at(position)
     particles.surface[:] = position[:, 2] > position[:, 2].max() - 0.5
     stencil = make_stencil(3, 1.0, RADIUS)

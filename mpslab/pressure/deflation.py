@@ -6,12 +6,11 @@ numbers, Z^T A Z, is small.  It is solved directly in every iteration, or, where
 cost too much, by conjugate gradients with a deflation of their own, whose groups are four of these.
 """
 
-from functools import lru_cache
-
 import numpy as np
 
 from mpslab.kernels import coarse, sparse
 from mpslab.pressure.conjugate_gradient import by_diagonal, conjugate_gradient
+from mpslab.pressure.groups import SIDE, group_rows, narrow
 from mpslab.pressure.system import PressureSystem
 
 # What the factor of the band may cost at most, in multiply-adds for each row of the finest system.
@@ -20,8 +19,6 @@ WORK = 200
 # Of a coarse system that is solved by iterations: the residual to reach, as a share of that of the
 # system above it (no iteration there takes out what it leaves), and the most iterations.
 SHARPER, FINEST, MOST = 0.01, 1e-14, 200
-# Cells across the tank in the key of a group: far more than there are.
-SIDE = 1 << 20
 
 
 class Deflation:
@@ -54,6 +51,8 @@ class Deflation:
         self.group, self.groups = group_rows(system, merged)
         rows, half = self._couplings(system)
         budget = WORK * rows if budget is None else budget
+        if self.count * half**2 > budget:
+            half = self._narrow(half, budget)
         if self.count * half**2 <= budget or self.count <= len(system.blocks):
             self.coarse = Band(self, half)
         else:
@@ -84,6 +83,22 @@ class Deflation:
         self.member, self.entry = member[:used], entry[:used]
         rows, halves = zip(*system.blocks.from_all((end - begin, half)), strict=True)
         return sum(rows), max(halves)
+
+    def _narrow(self, half, budget):
+        """Number the groups in another way, if that makes a band cheap; returns half its width.
+
+        Where water is thrown up, the few slabs that have many groups make the band of all as wide.
+        """
+        number, (begin, end) = narrow(self.groups), self.system.blocks.own
+        own = np.repeat(self.group[begin:end], np.diff(self.start[begin : end + 1]))
+        far = np.abs(number[self.member] - number[own]).max(initial=0)
+        narrower = max(self.system.blocks.from_all(int(far)))
+        if self.count * narrower**2 > budget:
+            return half
+        groups = np.empty_like(self.groups)
+        groups[number] = self.groups
+        self.group, self.groups, self.member = number[self.group], groups, number[self.member]
+        return narrower
 
     def _sums(self, r):
         """Z^T r of this rank's rows, (groups,)."""
@@ -165,7 +180,7 @@ class Nested:
         cell = np.column_stack([deflation.groups // SIDE % SIDE, deflation.groups % SIDE])
         self.system = PressureSystem(
             row, column[:entries], value[:entries], diagonal, np.zeros(count),
-            blocks, (cell - SIDE // 2).astype(np.int32),
+            blocks, (cell - cell.min(axis=0, initial=SIDE)).astype(np.int32),
         )  # fmt: skip
         blocks.refresh(diagonal)
         diagonal[diagonal == 0.0] = 1.0  # of groups that no row here is coupled to
@@ -190,56 +205,3 @@ class Nested:
         y, dots = self.solve(sums), np.zeros_like(by_block)
         self.system.blocks.block_dots(sums, y, dots)
         return y, sum(self.system.blocks.collect(by_block - dots).tolist())
-
-
-def group_rows(system, merged):
-    """Group of each row, (m,) int32, the same numbers on every rank; and the keys of all groups."""
-    key = keys(system.blocks.of_rows, system.cell, merged)
-    begin, end = system.blocks.own
-    own, first = key[begin:end], _runs(key)
-    groups, number = number_groups(system.blocks.from_all(np.unique(own[_runs(own)])))
-    ordered = np.empty_like(groups)
-    ordered[number] = groups
-    length = np.diff(first, append=len(key))
-    return number[np.searchsorted(groups, key[first])].repeat(length), ordered
-
-
-def _runs(key):
-    """Where the runs of equal keys begin: rows that follow each other are mostly of one group."""
-    return np.flatnonzero(np.diff(key, prepend=-1))
-
-
-def keys(slab, cell, merged):
-    """A number for each slab and cell, (m,) int64.
-
-    Parameters
-    ----------
-    slab : (m,) int
-    cell : (m, 2) int
-        Across the tank, and upwards.
-    merged : int
-        Cells that are taken together in either direction.
-    """
-    part = cell.astype(np.int64) // merged + SIDE // 2
-    return (slab * SIDE + part[:, 0]) * SIDE + part[:, 1]
-
-
-def number_groups(several):
-    """Sorted keys of all groups, and the number of each, (groups,) int32.
-
-    Groups are numbered slab by slab, in a slab layer by layer, and in a layer from both sides by
-    turns, so that across a periodic tank first and last are near: the band is narrow.
-    """
-    return _numbered(np.unique(np.concatenate(several)).tobytes())
-
-
-@lru_cache(maxsize=2)
-def _numbered(keys):
-    """The same of sorted keys, as bytes: mostly they are those of the last step."""
-    groups = np.frombuffer(keys, np.int64)
-    slab, aside, up = groups // SIDE**2, groups // SIDE % SIDE, groups % SIDE
-    places, aside = np.unique(aside, return_inverse=True)
-    aside = np.minimum(2 * aside, 2 * (len(places) - 1 - aside) + 1)
-    number = np.empty(len(groups), np.int32)
-    number[np.lexsort((aside, up, slab))] = np.arange(len(groups))
-    return groups, number
