@@ -158,6 +158,7 @@ CLASHES = [
     (WIDE | {"tank.width": 0, "particles.layers": 3}, "particles.layers = 3", "gradient_radius"),
     ({"scheme.gradient_radius": 1.4}, "scheme.gradient_radius = 1.4", "0, or >= 1.5 spacings"),
     ({"scheme.hyperviscosity": 0.6}, "scheme.hyperviscosity = 0.6", "0 to 0.5"),
+    ({"scheme.residue": 1.5}, "scheme.residue = 1.5", "0 to 1"),
     ({"scheme.wall_law": True, "scheme.wall_slip": False}, "scheme.wall_law = true", "wall_slip"),
     ({"scheme.wall_law": True, "fluid.viscosity": 0.0}, "scheme.wall_law = true", "roughness"),
     (SOLVED | {"scheme.gradient_radius": 2.4}, "scheme.gradient_radius = 2.4", "<= 2.3 spacings"),

@@ -29,7 +29,7 @@ ENTRIES = {"poisson.reach": 1, "coarse.by_group": 1, "coarse.couple": 1, "coarse
 PARTICLES = {
     "cells.assign": 2, "cells.count": 2, "cells.sort": 1, "cells.ascend": 1, "cells.mark": 1,
     "cells.marked": 1, "vectors.take": 5,
-    "vectors.pad": 4, "vectors.add": 3, "vectors.put": 1, "moments.invert": 1,
+    "vectors.pad": 4, "vectors.add": 3, "vectors.put": 1, "moments.invert": 1, "moments.residue": 1,
     "density.thin_or_lopsided": 1, "density.beside": 1, "repulsion.moved": 2,
     "repulsion.overlap": 2, "tank.outside": 1, "column.beside": 2, "coarse.spread": 1,
 }  # fmt: skip

@@ -5,7 +5,7 @@ from copy import copy
 import numpy as np
 
 from mpslab.core.particles import no_particles
-from mpslab.kernels import divergence, measure, moments, repulsion, vectors
+from mpslab.kernels import density, divergence, measure, moments, repulsion, vectors
 
 # Near the free surface the moment is one-sided and its inverse large: one layer would push the
 # next away.  There C = I, and the pair of the conservative gradient is that of p_i + p_j.
@@ -88,7 +88,7 @@ class Neighbourhood:
             self.position, particles.role, self.row, self.other, self.stencil, smooth, self.solid,
             self._behind, self.offset, self.straight, self.inverse, self.first, self.second,
         )  # fmt: skip
-        self._correction = self._lean = self._close = None
+        self._correction = self._lean = self._close = self._beside = None
         return self
 
     def measure_as(self, near):
@@ -102,7 +102,7 @@ class Neighbourhood:
         measure.weigh(
             self.row, self.stencil, near.offset, self.inverse, self.offset, self.first, self.second
         )
-        self._correction = self._lean = None
+        self._correction = self._lean = self._beside = None
         return self
 
     def _make_room(self, pairs, longest):
@@ -143,7 +143,7 @@ class Neighbourhood:
             setattr(found, name, getattr(self, name).take(members, 0))
         if self._correction is not None:
             found._correction = self._correction.take(members, 0)
-        found._lean = found._close = None
+        found._lean = found._close = found._beside = None
         return found
 
     def pick(self, values):
@@ -205,6 +205,19 @@ class Neighbourhood:
                              self.second, self.correction, self.stencil, least_determinant,
                              self._lean)  # fmt: skip
         return self._lean[:, 3].copy()
+
+    @property
+    def beside_surface(self):
+        """1 for the free surface and what has some of it within the radius, (n,) uint8.
+
+        Where ``particles.surface`` marked it when this was asked for first.
+        """
+        if self._beside is None:
+            self._beside = np.empty(len(self.particles), np.uint8)
+            density.beside(
+                self.row, self.other, self.offset, self.particles.surface, self._beside
+            )
+        return self._beside
 
     def largest_together(self, rate, mine):
         """The largest that water beside one another shares of values (n,) float64; 0 at least.

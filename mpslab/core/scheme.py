@@ -97,6 +97,14 @@ class Scheme:
         low=0,
         high=0.5,
     )
+    residue: float = key(
+        "share of what a uniform pressure does where particles are out of order that the pressure "
+        "equation knows, with gradient 'corrected'; with less than 0.5 the pressure of agitated "
+        "water alternates from step to step",
+        0.5,
+        low=0,
+        high=1,
+    )
     smagorinsky: float = key(
         "constant C_s of an eddy viscosity (C_s spacing)^2 |S|; 0 for none", 0.0, low=0, high=0.5
     )

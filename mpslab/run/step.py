@@ -7,7 +7,7 @@ import numpy as np
 from mpslab.core.particles import add_where, put_where
 from mpslab.core.timestep import pace, share
 from mpslab.forcings import total
-from mpslab.models import friction, hyperviscosity, surface, wall_law, wall_pressure
+from mpslab.models import friction, hyperviscosity, residue, surface, wall_law, wall_pressure
 from mpslab.pressure import equation
 from mpslab.run import pressing
 
@@ -175,8 +175,20 @@ def _assemble(flow, graded, pull, dt):
         flow.compression = dt * near.largest_together(right, flow.domain.owned)
     if flow.extrapolates:
         right += wall_pressure.flux(near, stencil, terms, pull)
+    if graded is not None and flow.case.scheme.residue:
+        towards_zero += _residue(flow)
     domain = flow.domain if flow.solver.BY_SLAB else None
     return equation.assemble(near, stencil, terms, rho, right, flow.unknowns, towards_zero, domain)
+
+
+def _residue(flow):
+    """What a uniform pressure adds to the diagonal, (n,) [m/kg]; see `mpslab.models.residue`."""
+    if not getattr(flow.gradient, "HAS_RESIDUE", False):
+        return 0.0
+    found = residue.stiffness(flow.near, flow.case.scheme.residue, flow.case.fluid.density)
+    if getattr(flow.solver, "NEEDS_GHOST_ROWS", False):
+        flow.domain.refresh(found)  # it takes the neighbours' neighbours of a particle
+    return found
 
 
 def density_rate(case, time):

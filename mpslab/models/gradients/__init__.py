@@ -9,7 +9,8 @@ Each module has one function::
     out : (n, 3) float64 [Pa/m], written for fluid particles, zero elsewhere
 
 and two flags that say what it promises: ``CONSERVES_MOMENTUM`` (pair forces between fluid
-particles are equal and opposite) and ``EXACT_FOR_LINEAR`` (any arrangement of neighbours).
+particles are equal and opposite) and ``EXACT_FOR_LINEAR`` (any arrangement of neighbours). With
+``HAS_RESIDUE = True`` what it makes of a uniform pressure is that of :mod:`mpslab.models.residue`.
 
 For the force on a solid, `gradient` is called once more, with the pairs of the water with this
 solid alone. A module whose sums need more than the pair has a second function::

@@ -4,6 +4,7 @@ from mpslab.kernels.pair cimport FLUID, pull, turned
 
 CONSERVES_MOMENTUM = True
 EXACT_FOR_LINEAR = False
+HAS_RESIDUE = True
 
 
 def gradient(near, double[:, ::1] out):

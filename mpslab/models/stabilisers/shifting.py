@@ -4,7 +4,7 @@ import numpy as np
 
 from mpslab.core.neighbourhood import padded
 from mpslab.core.timestep import share
-from mpslab.kernels import density, repulsion
+from mpslab.kernels import repulsion
 
 STAGE = "corrected"
 KEEPS_VELOCITY = True
@@ -39,9 +39,8 @@ def shift(near, matrices, factor, paces):
         How long the step is, in paces.
     """
     particles = near.particles
-    held, move = np.empty(len(particles), np.uint8), np.empty_like(particles.position)
-    density.beside(near.row, near.other, near.offset, particles.surface, held)
-    moves = (particles.fluid & (held == 0)).astype(np.uint8)
+    move = np.empty_like(particles.position)
+    moves = (particles.fluid & (near.beside_surface == 0)).astype(np.uint8)
     repulsion.shift(
         padded(particles.position), near.row, near.solid, near.other, near.stencil, near.smooth,
         matrices, moves, factor, LONGEST * near.stencil.spacing * paces, move,
