@@ -29,6 +29,7 @@ NAMES = (
     "regular_waves",
     "solitary_runup",
     "standing_wave",
+    "wedge_entry",
 )
 TWO_DIMENSIONAL = set(NAMES) - {"dam_break", "plunging_breaker"}
 

@@ -112,8 +112,8 @@ def _compare_heave(result, runs):
         bodies, (given,) = run.table("bodies"), run.case.solid
         lift = given.center[2] - run.depth
         time, height = bodies["time"], (bodies["cylinder z"] - run.depth) / lift
-        theory = radiation.heave(given.radius, run.depth, run.gravity, given.density, run.density,
-                                 time)  # fmt: skip
+        outline, mass = radiation.cylinder(given.radius), given.density * np.pi * given.radius**2
+        theory = radiation.heave(outline, run.depth, run.gravity, mass, run.density, time)
         period = _crest(time, height) / _crest(time, theory)
         rows.append([name, period, height.min(), theory.min()])
         figure.line(run.label, time, height)

@@ -1,4 +1,4 @@
-"""Linear theory of a half-immersed cylinder that is let go: heave after a small lift.
+"""Linear theory of a body afloat that is let go: heave after a small lift, in 2-D.
 
 The waves that a heaving body makes are a potential with K phi = d phi/dz on the surface, K = w^2/g
 (Ursell 1949 gave it in series for deep water); here it is found with panels for any depth. From
@@ -10,29 +10,37 @@ from functools import cache
 
 import numpy as np
 
-BODY, BED, OUT = 24, 50, 16  # panels on the quarter circle, the bed, and the two uprights each
-LOWEST, HIGHEST, FREQUENCIES = 0.15, 3.2, 90  # of sqrt(g/radius)
+BODY, BED, OUT = 24, 50, 16  # panels on half of the body, the bed, and the two uprights each
+LOWEST, HIGHEST, FREQUENCIES = 0.15, 3.2, 90  # of sqrt(g / half breadth)
 PER_WAVE = 10  # panels on the surface to the shortest wave
 
 
+def cylinder(radius):
+    """Outline of a half-immersed cylinder: its right half, from the keel up to the surface."""
+    angle = np.linspace(-0.5 * np.pi, 0.0, BODY + 1)
+    return tuple(map(tuple, radius * np.column_stack([np.cos(angle), np.sin(angle)])))
+
+
 @cache
-def coefficients(radius, depth, gravity):
+def coefficients(outline, depth, gravity):
     """Frequencies w [rad/s], added mass and damping over w, of unit density, (n,) each.
 
     Parameters
     ----------
-    radius, depth : float [m]
-        The cylinder's centre is in the surface.
+    outline : tuple of (x, z) [m]
+        The wetted right half of a body that is the same on both sides, from the keel up to the
+        surface, which is at z = 0: the middles of its panels are not too far apart.
+    depth : float [m]
     gravity : float [m/s2]
     """
-    ends, kind = _panels(radius, depth)
+    ends, kind = _panels(outline, depth)
     single, double = _influence(ends)
     step = np.diff(ends, axis=0)
     length = np.hypot(*step.T)
     up = step[:, 0] / length  # outward normal's z, the outline run through clockwise
     body = kind == "body"
     found = []
-    for w in np.sqrt(gravity / radius) * np.linspace(LOWEST, HIGHEST, FREQUENCIES):
+    for w in np.sqrt(gravity / outline[-1][0]) * np.linspace(LOWEST, HIGHEST, FREQUENCIES):
         wave = _wave_number(w, depth, gravity)
         slope = np.zeros(len(kind), complex)  # d phi/dn over phi
         slope[kind == "surface"] = w * w / gravity
@@ -43,17 +51,20 @@ def coefficients(radius, depth, gravity):
     return np.array(found).T
 
 
-def heave(radius, depth, gravity, density, water, times):
+def heave(outline, depth, gravity, mass, water, times):
     """Height over its place at rest, as a share of that from which it is let go, (n,).
 
     Parameters
     ----------
-    density, water : float [kg/m3]
+    outline, depth, gravity
+        As of `coefficients`.
+    mass : float [kg/m]
+    water : float [kg/m3]
+        Density.
     times : (n,) float64 [s]
     """
-    w, added, damping = coefficients(radius, depth, gravity)
-    mass = density * np.pi * radius**2
-    spring = 2.0 * water * gravity * radius
+    w, added, damping = coefficients(outline, depth, gravity)
+    spring = 2.0 * water * gravity * outline[-1][0]
     answer = 1.0 / (spring - w * w * (mass + water * added) - 1j * w * w * water * damping)
     still, fine = 1.0 / spring, np.linspace(0.0, w[-1], 4000)[1:]
     real = np.interp(fine, np.append(0.0, w), np.append(still, answer.real))
@@ -68,19 +79,19 @@ def _wave_number(w, depth, gravity):
     return k
 
 
-def _panels(radius, depth):
+def _panels(outline, depth):
     """Ends of the panels of one half of the water (n + 1, 2), clockwise, and what each is."""
-    shortest = 2.0 * np.pi * radius / HIGHEST**2
-    far = radius + 3.0 * depth
-    count = int((far - radius) / shortest * PER_WAVE)
-    angle = np.linspace(-0.5 * np.pi, 0.0, BODY + 1)
-    arc = radius * np.column_stack([np.cos(angle), np.sin(angle)])
-    surface = np.column_stack([np.linspace(radius, far, count + 1), np.zeros(count + 1)])
+    body, (keel, half) = np.array(outline), (outline[0][1], outline[-1][0])
+    shortest = 2.0 * np.pi * half / HIGHEST**2
+    far = half + 3.0 * depth
+    count = int((far - half) / shortest * PER_WAVE)
+    surface = np.column_stack([np.linspace(half, far, count + 1), np.zeros(count + 1)])
     out = np.column_stack([np.full(OUT + 1, far), np.linspace(0.0, -depth, OUT + 1)])
     bed = np.column_stack([np.linspace(far, 0.0, BED + 1), np.full(BED + 1, -depth)])
-    up = np.column_stack([np.zeros(OUT + 1), np.linspace(-depth, -radius, OUT + 1)])
-    ends = np.vstack([arc[:-1], surface[:-1], out[:-1], bed[:-1], up])
-    kinds = np.repeat(["body", "surface", "out", "wall", "wall"], [BODY, count, OUT, BED, OUT])
+    up = np.column_stack([np.zeros(OUT + 1), np.linspace(-depth, keel, OUT + 1)])
+    ends = np.vstack([body[:-1], surface[:-1], out[:-1], bed[:-1], up])
+    kinds = np.repeat(["body", "surface", "out", "wall", "wall"],
+                      [len(body) - 1, count, OUT, BED, OUT])  # fmt: skip
     return ends, kinds
 
 
