@@ -1,4 +1,4 @@
-"""What a uniform pressure does where particles are out of order, and what the matrix knows of it."""
+"""What a uniform pressure does to particles out of order, and what the matrix knows of it."""
 
 import numpy as np
 import pytest

@@ -2,9 +2,11 @@
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
-from validation.floating import compare
+from validation.floating import compare, radiation
+from validation.ship_section.compare import MASS, outline
 
 
 @pytest.mark.parametrize(("shape", "share"), [("cylinder", 1.0), ("sphere", 0.5)])
@@ -16,3 +18,28 @@ def test_added_mass_is_that_of_unbounded_water_where_nothing_is_near(shape, shar
 
     assert added(6.0) == pytest.approx(share, rel=0.01)
     assert share * 1.01 < added(0.36) < share * 1.3
+
+
+def test_radiation_of_a_half_immersed_cylinder_is_that_of_deep_water():
+    """Multipoles after Ursell (1949): w^2 a/g, added mass and damping over w rho pi a^2/2."""
+    radius, depth, gravity = 0.05, 0.6, 9.81
+    w, added, damping = radiation.coefficients(radiation.cylinder(radius), depth, gravity)
+    found = [np.interp([0.5, 1.0, 2.0, 4.0], w**2 * radius / gravity, part)
+             for part in (added, damping)]  # fmt: skip
+    found = np.array(found) / (0.5 * np.pi * radius**2)
+    np.testing.assert_allclose(found[0], [0.645, 0.605, 0.727, 0.864], rtol=0.01)
+    np.testing.assert_allclose(found[1], [0.812, 0.396, 0.121, 0.021], atol=0.012)
+
+
+def test_heave_of_a_cylinder_in_deep_water_is_that_of_maskell_and_ursell():
+    radius, gravity = 0.05, 9.81
+    times = np.array([0.5, 1.0, 2.0, 3.0, 5.0, 7.0]) * np.sqrt(radius / gravity)
+    mass = 500.0 * np.pi * radius**2
+    found = radiation.heave(radiation.cylinder(radius), 0.6, gravity, mass, 1000.0, times)
+    exact = [0.9215, 0.7037, 0.0404, -0.5115, -0.3245, 0.2970]
+    np.testing.assert_allclose(found, exact, atol=0.025)
+
+
+def test_radiation_of_the_ship_section_has_the_measured_added_mass():
+    w, added, _ = radiation.coefficients(outline(), 1.0, 9.81)
+    assert 1000.0 * np.interp(2.0 * np.pi / 1.17, w, added) / MASS == pytest.approx(0.70, abs=0.04)

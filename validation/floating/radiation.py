@@ -10,8 +10,10 @@ from functools import cache
 
 import numpy as np
 
-BODY, BED, OUT = 24, 50, 16  # panels on half of the body, the bed, and the two uprights each
-LOWEST, HIGHEST, FREQUENCIES = 0.15, 3.2, 90  # of sqrt(g / half breadth)
+BODY, BED = 24, 50  # panels on half of the body and the bed
+OUT = 48  # on the two uprights each, which are the shorter the nearer they are to the surface
+FAR = 2.0  # depths from the body to the upright where its waves leave
+LOWEST, HIGHEST, FREQUENCIES = 0.15, 4.5, 120  # of sqrt(g / half breadth)
 PER_WAVE = 10  # panels on the surface to the shortest wave
 
 
@@ -83,10 +85,11 @@ def _panels(outline, depth):
     """Ends of the panels of one half of the water (n + 1, 2), clockwise, and what each is."""
     body, (keel, half) = np.array(outline), (outline[0][1], outline[-1][0])
     shortest = 2.0 * np.pi * half / HIGHEST**2
-    far = half + 3.0 * depth
+    far = half + FAR * depth
     count = int((far - half) / shortest * PER_WAVE)
     surface = np.column_stack([np.linspace(half, far, count + 1), np.zeros(count + 1)])
-    out = np.column_stack([np.full(OUT + 1, far), np.linspace(0.0, -depth, OUT + 1)])
+    downward = np.linspace(0.0, 1.0, OUT + 1) ** 2
+    out = np.column_stack([np.full(OUT + 1, far), -depth * downward])
     bed = np.column_stack([np.linspace(far, 0.0, BED + 1), np.full(BED + 1, -depth)])
     up = np.column_stack([np.zeros(OUT + 1), np.linspace(-depth, keel, OUT + 1)])
     ends = np.vstack([body[:-1], surface[:-1], out[:-1], bed[:-1], up])

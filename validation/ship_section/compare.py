@@ -49,9 +49,8 @@ def _compare_heave(result, runs):
 def outline():
     """The wetted right half of the section, from the keel up, by panels."""
     turn = np.linspace(0.0, 0.5 * np.pi, 6)
-    bilge = BILGE * np.column_stack([np.sin(turn), 1.0 - np.cos(turn)])
-    corners = [[0.0, 0.0], *(bilge + [0.5 * BREADTH - BILGE, 0.0]), [0.5 * BREADTH, DRAFT]]
-    x, z = np.transpose(corners)
+    x = np.array([0.0, *(0.5 * BREADTH - BILGE * (1.0 - np.sin(turn))), 0.5 * BREADTH])
+    z = np.array([0.0, *(BILGE * (1.0 - np.cos(turn))), DRAFT])
     along = np.append(0.0, np.cumsum(np.hypot(np.diff(x), np.diff(z))))
     ends = np.unique(np.append(np.linspace(0.0, along[-1], PANELS + 1), along))
     points = np.interp(ends, along, x), np.interp(ends, along, z) - DRAFT
