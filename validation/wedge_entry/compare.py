@@ -74,7 +74,8 @@ def _compare_steady(result, runs):
     force.dashed("similarity solution", DEPTHS, FORCE * run.density * SPEED**2 * np.array(DEPTHS))
     pressure.dashed("its largest", BINS[[0, -1]], [PEAK, PEAK])
     result.measure("force", rows[-1][1])
-    result.measure("peak", rows[-1][2])
+    if len(runs) > 1:
+        result.measure("peak", rows[-1][2])  # the quick suite is too coarse for it
     columns = ["run", "force over the similarity solution's", "largest pressure over its"]
     result.table("Driven wedge", columns, rows)
     if len(runs) > 1:
