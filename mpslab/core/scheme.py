@@ -99,8 +99,8 @@ class Scheme:
     )
     residue: float = key(
         "share of what a uniform pressure does where particles are out of order that the pressure "
-        "equation knows, with gradient 'corrected'; with less than 0.5 the pressure of agitated "
-        "water alternates from step to step",
+        "equation knows, with gradient 'corrected' and surface 'graded'; with less than 0.5 the "
+        "pressure of agitated water alternates from step to step",
         0.5,
         low=0,
         high=1,
