@@ -1,5 +1,7 @@
 """Measurements from a CSV file, and the place in the water to hold them against."""
 
+import csv
+
 import numpy as np
 from scipy.spatial import cKDTree
 
@@ -11,6 +13,19 @@ def read_columns(path):
     with path.open() as file:
         heading = file.readline().strip().split(",")
         return dict(zip(heading, np.loadtxt(file, delimiter=",").T, strict=True))
+
+
+def read_curves(path):
+    """Curves of a CSV file whose rows are a curve's name and a point of it, (2, points) by name.
+
+    Lines that begin with # are remarks; one line of headings.
+    """
+    with path.open() as file:
+        _, *rows = csv.reader(line for line in file if not line.startswith("#"))
+    curves = {}
+    for name, x, y in rows:
+        curves.setdefault(name, []).append((float(x), float(y)))
+    return {name: np.transpose(points) for name, points in curves.items()}
 
 
 def foremost(position, spacing, others, among=True):

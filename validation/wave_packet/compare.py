@@ -1,11 +1,11 @@
 """Waves before and behind a box afloat, and its heave, sway and roll, against the experiment."""
 
-import csv
 from pathlib import Path
 
 import numpy as np
 
 from validation.comparison import Comparison, rms
+from validation.data import read_curves
 
 DATA = Path(__file__).parent / "data" / "hadzic2005_box_wavepacket.csv"
 # What was measured, by its name in the data: criterion, title, unit, factor from SI units.
@@ -21,7 +21,7 @@ CURVES = {
 def compare(runs):
     """The finest run is measured, all are drawn."""
     result = Comparison()
-    measured, rows = _measured(), []
+    measured, rows = read_curves(DATA), []
     runs = sorted(runs.values(), key=lambda run: -run.spacing)
     for curve, (name, title, unit, factor) in CURVES.items():
         at, right = measured[curve]
@@ -42,19 +42,8 @@ def compare(runs):
     return result
 
 
-def _measured():
-    """Time [s] and value of each curve [m, deg], (n,) each, by its name in the data."""
-    with DATA.open() as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    return {
-        curve: np.array([(float(row["t_s"]), float(row["value"]))
-                         for row in rows if row["quantity"] == curve]).T
-        for curve in CURVES
-    }  # fmt: skip
-
-
 def _seen(run):
-    """The same of a run, by criterion, from where box and level are at rest."""
+    """Time [s] and value [m, deg] of each curve of a run, from where box and level are at rest."""
     bodies, gauges = run.table("bodies"), run.gauges
     time = bodies["time"]
     return {

@@ -1,12 +1,12 @@
 """Force and pressure on a wedge driven into water, and the speed of one that falls."""
 
-import csv
 from pathlib import Path
 
 import numpy as np
 
 from mpslab.core.kinds import WALL
 from validation.comparison import Comparison
+from validation.data import read_curves
 
 DATA = Path(__file__).parent / "data" / "yettou2006_wedge_entry_velocity.csv"
 # Dobrovol'skaya's similarity solution for a deadrise of 30 degrees, as in the table of Zhao &
@@ -28,7 +28,7 @@ def compare(runs):
 
 def _compare_falling(result, runs):
     figure = result.figure("Speed of a falling wedge", "time since contact [ms]", "speed [m/s]")
-    found = _published()
+    found = {name: (1e-3 * time, speed) for name, (time, speed) in read_curves(DATA).items()}
     for name, (time, speed) in found.items():
         draw = figure.points if name == "experiment" else figure.dashed
         draw(f"{name} (Yettou et al. 2006)" if name == "experiment" else name, 1e3 * time, speed)
@@ -45,17 +45,6 @@ def _compare_falling(result, runs):
             result.hold(f"{name}, {run.label} [m/s], [s]", time, speed, at[part], right[part])
     result.measure("speed", off["BEM"])
     result.measure("speed_measured", off["experiment"])
-
-
-def _published():
-    """Time since contact [s] and speed [m/s] of the falling wedge, (n,) each, by their source."""
-    with DATA.open() as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    return {
-        name: np.array([(1e-3 * float(row["t_ms"]), float(row["velocity_down_m_s"]))
-                        for row in rows if row["series"] == name]).T
-        for name in ("experiment", "BEM")
-    }  # fmt: skip
 
 
 def _compare_steady(result, runs):
