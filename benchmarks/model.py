@@ -38,13 +38,13 @@ ITERATIONS = {0.004: 9.4, 0.003: 11.6, 0.002: 10.8, 0.0015: 11.3, 0.001: 13.0, 0
 # slab each, and of a third one with a value a group.
 EXCHANGES, SUMS, DOTS = 1, 2, 3
 # And of a step: rows and refreshed arrays; sums, with what all ranks tell each other as two each.
-STEP_EXCHANGES, STEP_SUMS = 14, 39
+STEP_EXCHANGES, STEP_SUMS = 16, 39
 # Solves for the groups, each with the sum of a value a group: one an iteration, and before the
 # first and after the last.
 STEP_SOLVES = 2
 ROW_BYTES = 8  # of a value in messages and sums as well
 # Of a ghost in a step: its arrays, position and velocity of the start, and what is refreshed.
-GHOST_BYTES = 74 + 48 + 209
+GHOST_BYTES = 74 + 48 + 257
 
 
 @dataclass(frozen=True)

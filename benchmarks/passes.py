@@ -13,8 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from mpslab import Simulation, load_case
-from mpslab.models import friction
-from mpslab.models.stabilisers.shifting import shift
+from mpslab.models import friction, hyperviscosity
 from mpslab.pressure import equation
 from mpslab.run import step
 
@@ -29,7 +28,7 @@ BYTES = {
 }
 # Those that have no plain form.
 ALONE = {
-    "shift": (4, 156),
+    "hyperviscosity": (48, 248),
     "product": (8, 28),
     "search": (4, 28),  # the last: what it finds has not been measured
 }
@@ -149,10 +148,8 @@ class Passes:
     def search(self):
         step.find_neighbors(self.flow)
 
-    def shift(self):
-        place = self.flow.particles.position.copy()
-        shift(self.near, self.near.correction, 1e-9, 1.0)
-        self.flow.particles.position[:] = place
+    def hyperviscosity(self):
+        hyperviscosity.change(self.near, self.flow.particles.velocity, 0.3, id)
 
     @cached_property
     def product(self):

@@ -179,8 +179,8 @@ def test_only_the_coarse_built_in_cases_warn_and_only_of_their_wave():
 
 def test_limits_of_the_time_step_follow_from_spacing_and_depth():
     time = cases.from_tables(small()).time
-    assert time.maximum == pytest.approx(0.3 * 0.01 / sqrt(9.81 * 0.1), rel=1e-15)
-    assert time.courant == 0.4
+    assert time.maximum == pytest.approx(0.4 * 0.01 / sqrt(9.81 * 0.1), rel=1e-15)
+    assert time.courant == 0.5
     assert time.start == pytest.approx(time.maximum / 10.0)
     assert time.minimum == pytest.approx(time.maximum * 1e-4)
 

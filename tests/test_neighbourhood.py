@@ -10,9 +10,9 @@ from mpslab.core import plugins
 from mpslab.core.neighbourhood import Neighbourhood, padded
 from mpslab.core.particles import FACE, FILLER, FLUID
 from mpslab.core.stencil import make_stencil
-from mpslab.kernels import repulsion, viscosity
+from mpslab.kernels import viscosity
 from mpslab.models import wall_pressure
-from mpslab.models.stabilisers.shifting import LONGEST
+from mpslab.models.stabilisers.shifting import LONGEST, shift
 from mpslab.pressure import equation
 
 WIDTH = 7.0
@@ -131,15 +131,12 @@ def test_shifting_sees_a_smooth_bed_as_the_pressure_does(dim):
     for smooth in (False, True):
         near = Neighbourhood(make_stencil(dim, 1.0, 2.1))
         near.measure(particles, neighbors_of(place, 2.6), smooth=smooth)
-        push = near.second[0, :, 3]
-        matrices, move = np.zeros_like(near.second), np.empty_like(place)
-        matrices[:, range(3), range(3)] = 1.0
-        repulsion.shift(
-            near.position, near.row, near.solid, near.other, near.stencil, smooth, matrices,
-            particles.fluid.astype(np.uint8), 1e-3, LONGEST, move,
-        )  # fmt: skip
-        np.testing.assert_allclose(move[0], -1e-3 * push, atol=1e-8)
-        aside[smooth] = np.abs(move[0, :2]).max() / move[0, 2]
+        push, before = near.second[0, :, 3].copy(), particles.position[0].copy()
+        shift(near, np.pad(near.second[:, :, 3], ((0, 0), (0, 1))), 1e-3, 1.0)
+        move = particles.position[0] - before
+        np.testing.assert_allclose(move, -1e-3 * push, atol=1e-12)
+        particles.position[0] = before
+        aside[smooth] = np.abs(move[:2]).max() / move[2]
     assert aside[False] > 0.02
     assert aside[True] < 0.3 * aside[False]
 
@@ -245,15 +242,13 @@ def test_corrected_shifting_is_the_sum_of_its_formula(dim):
     near, pairs = setting(dim)
     half = 0.5 * (pairs.d + pairs.c[:, None])
     expected = -0.1 * np.einsum("ij,ijab,ijb->ia", pairs.g, half, pairs.r)
-    expected[~pairs.water] = 0.0
+    expected[~pairs.water | (near.beside_surface == 1)] = 0.0
     length = np.linalg.norm(expected, axis=1, keepdims=True)
     expected *= LONGEST / np.maximum(length, LONGEST)
-    out, moves = np.empty_like(expected), pairs.water.astype(np.uint8)
-    repulsion.shift(
-        near.position, near.row, near.solid, near.other, near.stencil, False, near.correction,
-        moves, 0.1, LONGEST, out,
-    )  # fmt: skip
-    assert_close(out, expected)
+    assert np.any(length > LONGEST) and np.any(length[:, 0] * pairs.water == 0.0)
+    before = near.particles.position.copy()
+    shift(near, 0.5 * near.disorder, 0.1, 1.0)
+    assert_close(near.particles.position - before, expected)
 
 
 @pytest.mark.parametrize("slip", [True, False])

@@ -89,7 +89,7 @@ def test_shares_count_in_a_time_that_the_step_does_not_change():
 
 
 @pytest.mark.parametrize(("projection", "courant", "largest"), [
-    ("start", 0.4, 0.3), ("predicted", 0.2, 0.1),
+    ("start", 0.5, 0.4), ("predicted", 0.2, 0.1),
 ])  # fmt: skip
 def test_limits_that_are_left_open_are_those_of_the_projection(projection, courant, largest):
     time = make_case({"scheme.projection": projection}).time

@@ -88,7 +88,8 @@ class Neighbourhood:
             self.position, particles.role, self.row, self.other, self.stencil, smooth, self.solid,
             self._behind, self.offset, self.straight, self.inverse, self.first, self.second,
         )  # fmt: skip
-        self._correction = self._lean = self._close = self._beside = None
+        self._correction = self._lean = self._close = None
+        self._beside = self._disorder = None
         return self
 
     def measure_as(self, near):
@@ -102,7 +103,7 @@ class Neighbourhood:
         measure.weigh(
             self.row, self.stencil, near.offset, self.inverse, self.offset, self.first, self.second
         )
-        self._correction = self._lean = self._beside = None
+        self._correction = self._lean = self._beside = self._disorder = None
         return self
 
     def _make_room(self, pairs, longest):
@@ -143,7 +144,7 @@ class Neighbourhood:
             setattr(found, name, getattr(self, name).take(members, 0))
         if self._correction is not None:
             found._correction = self._correction.take(members, 0)
-        found._lean = found._close = found._beside = None
+        found._lean = found._close = found._beside = found._disorder = None
         return found
 
     def pick(self, values):
@@ -218,6 +219,19 @@ class Neighbourhood:
                 self.row, self.other, self.offset, self.particles.surface, self._beside
             )
         return self._beside
+
+    @property
+    def disorder(self):
+        """S_i + C_i m_i of the water, 0 of solids, (n, 4) [1/m]; the fourth number is 0.
+
+        With m_i = sum_j r_ij w/r^2 and S_i of `lean`. The gradient "corrected" makes Ds/n0 of it of
+        a pressure of one everywhere: nothing where particles are in order.
+        """
+        if self._disorder is None:
+            self._disorder = np.empty((len(self.particles), 4))
+            moments.disorder(self.second, self.correction, self.lean, self.particles.role,
+                             self._disorder)  # fmt: skip
+        return self._disorder
 
     def largest_together(self, rate, mine):
         """The largest that water beside one another shares of values (n,) float64; 0 at least.

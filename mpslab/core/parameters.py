@@ -154,7 +154,7 @@ class Time:
 
     end: float = key("end of the run", unit="s", above=0)
     courant: float = key(
-        "dt <= courant spacing / largest speed, but for particles without neighbours; 0 for 0.4, "
+        "dt <= courant spacing / largest speed, but for particles without neighbours; 0 for 0.5, "
         "half with projection 'predicted'",
         0.0,
         low=0,
@@ -163,16 +163,16 @@ class Time:
     compression: float = key(
         "dt <= compression / largest rate at which water runs together before the pressure acts, "
         "in the mean over a particle and the water beside it; not with projection 'predicted'",
-        0.01,
+        0.02,
         above=0,
         high=10,
     )
     viscous: float = key("dt <= viscous spacing^2 / viscosity", 0.1, above=0, high=1)
     growth: float = key("dt <= growth last dt", 1.1, above=1, high=10)
     maximum: float = key(
-        "largest dt; 0 for 0.3 spacing / sqrt(gravity depth), 0.1 with projection 'predicted'; "
+        "largest dt; 0 for 0.4 spacing / sqrt(gravity depth), 0.1 with projection 'predicted'; "
         "in a tank that moves with the strongest pull on water at rest for gravity; without any "
-        "0.2 or 0.1 spacing / largest speed at the start",
+        "0.3 or 0.1 spacing / largest speed at the start",
         0.0,
         unit="s",
         low=0,

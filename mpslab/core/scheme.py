@@ -60,6 +60,13 @@ class Scheme:
         low=0,
         high=1,
     )
+    relief: float = key(
+        "share of what the number density of water is too high by, over 5 %, that is taken back in "
+        "the same time as that of gamma, with projection 'start'",
+        0.2,
+        low=0,
+        high=0.5,
+    )
     surface_threshold: float = key(
         "n/n0 below which a particle is free surface, where it is marked", 0.97, above=0, high=1
     )

@@ -1,5 +1,5 @@
 """Correction matrix of the gradient: the inverse of the second moment of the neighbours."""
-from mpslab.kernels.lanes cimport four, lane, load
+from mpslab.kernels.lanes cimport ended, four, load, nothing, store
 from mpslab.kernels.matrix cimport inverted
 from mpslab.kernels.pair cimport FLUID, plus_turned
 
@@ -35,13 +35,12 @@ def without_fillers(const int[::1] row, const int[::1] solid, const int[::1] oth
                         second[i, a, b] -= offset[k, 3] * offset[k, a] * <double>offset[k, b]
 
 
-def residue(const double[:, :, ::1] second, const double[:, :, ::1] c,
-            const double[:, ::1] lean, const signed char[::1] role,
-            const unsigned char[::1] held, double factor, double[::1] out):
-    """out = factor |S_i + C_i m_i|^2 of the water that is not held, with m_i = sum_j r_ij w/r^2.
+def disorder(const double[:, :, ::1] second, const double[:, :, ::1] c,
+             const double[:, ::1] lean, const signed char[::1] role, double[:, ::1] out):
+    """S_i + C_i m_i of water, 0 of solids, with m_i = sum_j r_ij w/r^2 [1/m].
 
     second, c : (n, 3, 4), see mpslab.kernels.measure and `invert`
-    lean : (n, 4), S_i [1/m], see mpslab.core.neighbourhood
+    lean, out : (n, 4), S_i [1/m], see mpslab.core.neighbourhood; the fourth number of out is 0
     """
     cdef double[4] m
     cdef four e
@@ -49,10 +48,9 @@ def residue(const double[:, :, ::1] second, const double[:, :, ::1] c,
     m[3] = 0.0
     with nogil:
         for i in range(out.shape[0]):
-            out[i] = 0.0
-            if role[i] != FLUID or held[i]:
-                continue
-            for a in range(3):
-                m[a] = second[i, a, 3]
-            e = plus_turned(load(&lean[i, 0]), &c[i, 0, 0], load(m))
-            out[i] = factor * (lane(e, 0) ** 2 + lane(e, 1) ** 2 + lane(e, 2) ** 2)
+            e = nothing()
+            if role[i] == FLUID:
+                for a in range(3):
+                    m[a] = second[i, a, 3]
+                e = plus_turned(load(&lean[i, 0]), &c[i, 0, 0], load(m))
+            store(&out[i, 0], ended(e, 0.0))

@@ -1,97 +1,27 @@
 """Displacements that keep particles apart: shifting, dynamic stabilisation, collision."""
 from libc.math cimport sqrt
 
-from mpslab.kernels.lanes cimport four, lane, load, minus, nearest, nothing, plus, times
-from mpslab.kernels.pair cimport FLUID, LANES, distance, has_pressure, plus_turned, weight, wrap
-from mpslab.kernels.smooth cimport evened, places, pulled, square
-
-# Neighbours of a particle whose distances are taken together; a multiple of LANES.
-cdef enum:
-    PART = 64
+from mpslab.kernels.pair cimport FLUID, distance, has_pressure, wrap
 
 
-def shift(const double[:, ::1] position, const int[::1] row, const int[::1] solid,
-          const int[::1] other, stencil, bint smooth, const double[:, :, ::1] c,
-          const unsigned char[::1] moves, double factor, double longest, double[:, ::1] out):
-    """dr_i = -factor sum_j (C_i + D_j)/2 r_ij w/r^2 of the particles that may move [m].
+def shift(const double[:, ::1] sums, const unsigned char[::1] moves, double factor,
+          double longest, double[:, ::1] position):
+    """Move particles by -factor times their sums, by `longest` [m] at most, in place.
 
-    D_j is C_j if j is water and C_i if it is a solid; no move is longer than `longest` [m].  Solids
-    that are `smooth` push along their normal alone, see mpslab.kernels.smooth.
-
-    position : (n, 4) [m], where the particles are now, the fourth number 0
-    row, solid, other : pairs, see mpslab.kernels.measure
-    c : (n, 3, 4), see mpslab.kernels.moments;  factor : [m2]
+    sums : (n, 4) [1/m];  factor : [m2];  moves : (n,), whether a particle may
     """
-    cdef double radius = stencil.radius, width = stencil.width, floor = stencil.floor
-    cdef double length, scale, quarter = 0.25 * stencil.spacing
-    cdef int dim = stencil.dim
-    cdef double[PART] factors
-    cdef four of_water, of_solids, turned_, v
-    cdef four[PART] r
-    cdef int begin, end
-    cdef Py_ssize_t i, k, a
+    cdef double x, y, z, length, scale
+    cdef Py_ssize_t i
     with nogil:
         for i in range(moves.shape[0]):
-            out[i, 0] = out[i, 1] = out[i, 2] = 0.0
             if not moves[i]:
                 continue
-            of_water = of_solids = turned_ = nothing()
-            end = row[i]
-            while end < row[i + 1]:
-                begin, end = end, min(end + PART, row[i + 1])
-                pulls(&position[0, 0], i, &other[begin], end - begin, radius, width, floor, r,
-                      factors)
-                for k in range(begin, min(end, solid[i])):
-                    v = times(factors[k - begin], r[k - begin])
-                    of_water = plus(of_water, 1.0, v)
-                    turned_ = plus_turned(turned_, &c[other[k], 0, 0], v)
-                for k in range(max(begin, solid[i]), end):
-                    of_solids = plus(of_solids, factors[k - begin], r[k - begin])
-            if smooth and solid[i] < row[i + 1]:
-                of_solids = along_normal(of_solids, &position[0, 0], i, &other[0], solid[i],
-                                         row[i + 1], radius, width, quarter, dim)
-            turned_ = plus_turned(turned_, &c[i, 0, 0], plus(of_water, 2.0, of_solids))
-            length = 0.5 * factor * sqrt(lane(turned_, 0) ** 2 + lane(turned_, 1) ** 2
-                                         + lane(turned_, 2) ** 2)
-            scale = -0.5 * factor * (longest / length if length > longest else 1.0)
-            for a in range(3):
-                out[i, a] = scale * lane(turned_, a)
-
-
-cdef inline four along_normal(four of_solids, const double* position, Py_ssize_t i,
-                              const int* other, Py_ssize_t begin, Py_ssize_t end, double radius,
-                              double width, double quarter, int dim) noexcept nogil:
-    """The part of sum_j w r_ij/r^2 over the solids of a particle that is along their normal."""
-    cdef four[3] aside, total
-    cdef four here = load(position + 4 * i)
-    cdef Py_ssize_t k
-    if square(of_solids) == 0.0:
-        return of_solids
-    places(of_solids, quarter, dim, aside)
-    total[0] = total[1] = total[2] = nothing()
-    for k in range(begin, end):
-        pulled(nearest(minus(load(position + 4 * other[k]), here), width), aside, radius, total)
-    return evened(total, of_solids)
-
-
-cdef inline void pulls(const double* position, Py_ssize_t i, const int* other, int count,
-                       double radius, double width, double floor, four* r,
-                       double* factors) noexcept nogil:
-    """r_ij [m] and w/r^2 [1/m2] of up to PART neighbours of a particle.
-
-    Always LANES factors are worked on at a time, whatever lies behind the last one.
-    """
-    cdef four here = load(position + 4 * i)
-    cdef double inverse
-    cdef int k, lane_, block
-    for k in range(count):
-        r[k] = nearest(minus(load(position + 4 * other[k]), here), width)
-        factors[k] = lane(r[k], 0) ** 2 + lane(r[k], 1) ** 2 + lane(r[k], 2) ** 2
-    for block in range((count + LANES - 1) // LANES):
-        for lane_ in range(LANES):
-            inverse = sqrt(factors[block * LANES + lane_])
-            inverse = 1.0 / (inverse if inverse > floor else floor)
-            factors[block * LANES + lane_] = weight(inverse, radius) * inverse * inverse
+            x, y, z = sums[i, 0], sums[i, 1], sums[i, 2]
+            length = factor * sqrt(x * x + y * y + z * z)
+            scale = factor * (longest / length if length > longest else 1.0)
+            position[i, 0] -= scale * x
+            position[i, 1] -= scale * y
+            position[i, 2] -= scale * z
 
 
 def moved(const double[:, ::1] position, const double[:, ::1] before, double width,

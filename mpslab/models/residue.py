@@ -2,14 +2,12 @@
 
 import numpy as np
 
-from mpslab.kernels import moments
-
 
 def stiffness(near, share, density):
     """A share of |e_i|^2/rho, to be added to the diagonal of the pressure equation, (n,) [m/kg].
 
     The gradient "corrected" makes e_i = (Ds/n0) (S_i + C_i m_i) of a pressure of one everywhere
-    (`Neighbourhood.lean`; m_i = sum_j r_ij w/r^2): nothing in water whose particles are in order.
+    (`Neighbourhood.disorder`): nothing in water whose particles are in order.
     Where they are not, the divergence adjoint to it finds sum_i |e_i|^2 in the velocities that this
     makes, but the Laplacian finds nothing. So the pressure corrects too much, the more the smoother
     it is: for a wave length of 2 H by the factor 1 + (|e| H/pi)^2. With a factor above 2 it
@@ -18,8 +16,7 @@ def stiffness(near, share, density):
     nothing makes good what the noise of the pressure takes from waves (docs/recipe.md, *A uniform
     pressure*).
 
-    The surface and the water beside it are left out: there shifting does not keep order, and the
-    surface has a condition of its own.
+    The surface is left out: it has a condition of its own.
 
     Parameters
     ----------
@@ -28,8 +25,6 @@ def stiffness(near, share, density):
     share : float
     density : float [kg/m3]
     """
-    out = np.empty(len(near.particles))
     factor = share * (near.stencil.dim / near.stencil.n0) ** 2 / density
-    moments.residue(near.second, near.correction, near.lean, near.particles.role,
-                    near.beside_surface, factor, out)  # fmt: skip
-    return out
+    square = np.einsum("ij,ij->i", near.disorder, near.disorder)
+    return factor * square * (near.particles.surface == 0)

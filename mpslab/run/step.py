@@ -7,13 +7,22 @@ import numpy as np
 from mpslab.core.particles import add_where, put_where
 from mpslab.core.timestep import pace, share
 from mpslab.forcings import total
-from mpslab.models import friction, hyperviscosity, residue, surface, wall_law, wall_pressure
+from mpslab.models import (
+    crowding,
+    friction,
+    hyperviscosity,
+    residue,
+    surface,
+    wall_law,
+    wall_pressure,
+)
 from mpslab.pressure import equation
 from mpslab.run import pressing
 
 LAYERS = 20  # of water, up to which the weight of a density error does not depend on them
 WAKING = 2.0  # sqrt(depth / gravity): in this time the density begins to count
 FURTHEST = 1.0  # spacings that a particle goes in a step
+SURE = 2  # passes of a stabiliser, after which ghosts are no longer what their owners have
 
 
 def advance(flow, dt):
@@ -171,8 +180,10 @@ def _assemble(flow, graded, pull, dt):
     rate = density_rate(flow.case, flow.time)
     right = flow.source.source(near, velocity, n, dt, rate, flow.case.scheme)
     if flow.case.scheme.projection == "start":
+        relief = flow.case.scheme.relief
         flow.domain.refresh(right)
         flow.compression = dt * near.largest_together(right, flow.domain.owned)
+        right += crowding.rate(n, flow.stencil, relief, dt, pace(flow.case)) / dt
     if flow.extrapolates:
         right += wall_pressure.flux(near, stencil, terms, pull)
     if graded is not None and flow.case.scheme.residue:
@@ -274,7 +285,9 @@ def _part(flow, model, dt):
     def act(near):
         one_pass(near, dt, pace(flow.case), flow.case.scheme)
 
-    for _ in range(getattr(model, "PASSES", 1)):
+    for turn in range(getattr(model, "PASSES", 1)):
+        if turn and turn % SURE == 0:
+            flow.domain.refresh(flow.particles.position, flow.particles.velocity)
         for one in felt:
             one.stabilise(flow.near, act)
         act(flow.near)

@@ -13,6 +13,7 @@ parts pairs which have come too near does so at once.
 
 For the force on a solid it is called once more, with the pairs of the water with this solid alone:
 so the change of a velocity has to be a sum over pairs.  A module whose ``stabilise`` is several
-such passes says how many, ``PASSES``, and has them as ``one_pass``, with the same arguments.  One
-that changes no velocity says ``KEEPS_VELOCITY = True``, and is not called again.
+such passes says how many, ``PASSES``, and has them as ``one_pass``, with the same arguments; in it
+a particle may see what is within its radius.  One that changes no velocity says
+``KEEPS_VELOCITY = True``, and is not called again.
 """

@@ -8,13 +8,14 @@ KEEPS_VELOCITY = True
 
 
 def stabilise(near, dt, pace, scheme):
-    """dr_i = -(A/R) sum_j (C_i + C_j)/2 r_ij w/r^2 inside the water [m]; velocities stay.
+    """dr_i = -(A/R) sum_j (C_i + D_j)/2 r_ij w/r^2 inside the water [m]; velocities stay.
 
-    The sum is what the gradient "corrected" makes of a constant pressure: particles that have moved
-    until it vanishes feel no force from the pressure itself, only from its differences. With R of
-    the lattice (`Stencil.restoring`) the strength A is the share of a displacement that the step
-    takes back (in fact a little less, because the matrices change as well); near 1/2 neighbours
-    overshoot together.  The matrices are those of the places where the pressure acted.
+    D_j is C_j of water and C_i of solids. The sum is what the gradient "corrected" makes of a
+    constant pressure (`Neighbourhood.disorder`): particles that have moved until it vanishes feel
+    no force from the pressure itself, only from its differences. With R of the lattice
+    (`Stencil.restoring`) the strength A is the share of a displacement that the step takes back (in
+    fact a little less, because the matrices change as well); near 1/2 neighbours overshoot
+    together.
     """
-    factor = share(scheme.shifting_strength, dt, pace) / near.stencil.restoring
-    shift(near, near.correction, factor, dt / pace)
+    factor = 0.5 * share(scheme.shifting_strength, dt, pace) / near.stencil.restoring
+    shift(near, near.disorder, factor, dt / pace)

@@ -5,7 +5,7 @@ import numpy as np
 from mpslab.kernels import repulsion
 
 STAGE = "corrected"
-PASSES = 2  # the second parts pairs that the first pushed together; ghosts are right after one
+PASSES = 4  # each parts the pairs that the one before has pushed together
 
 
 def stabilise(near, dt, pace, scheme):

@@ -16,34 +16,23 @@ def stabilise(near, dt, pace, scheme):
 
     A is the `share` of the step; velocities stay.
     """
-    matrices = np.zeros_like(near.second)
-    matrices[:, range(3), range(3)] = 1.0
     factor = share(scheme.shifting_strength, dt, pace) * near.stencil.spacing**2 / near.stencil.n0
-    shift(near, matrices, factor, dt / pace)
+    shift(near, padded(np.ascontiguousarray(near.second[:, :, 3])), factor, dt / pace)
 
 
-def shift(near, matrices, factor, paces):
-    """Move the water by -factor sum_j (C_i + D_j)/2 r_ij w/r^2, summed where it is now.
+def shift(near, sums, factor, paces):
+    """Move the water by -factor times sums over its pairs, where the pressure acted.
 
-    Neither the surface nor the particles beside it move.  Sums at the places where the pressure
-    acted would be good enough for waves, but not where water is thrown against a wall: there they
-    throw particles together.
+    Neither the surface nor the particles beside it move.
 
     Parameters
     ----------
     near : Neighbourhood
-    matrices : (n, 3, 4) float64
-        C_i; D_j is C_j of water and C_i of solids.
+    sums : (n, 4) float64 [1/m]
     factor : float [m2]
     paces : float
         How long the step is, in paces.
     """
-    particles = near.particles
-    move = np.empty_like(particles.position)
-    moves = (particles.fluid & (near.beside_surface == 0)).astype(np.uint8)
-    repulsion.shift(
-        padded(particles.position), near.row, near.solid, near.other, near.stencil, near.smooth,
-        matrices, moves, factor, LONGEST * near.stencil.spacing * paces, move,
-    )  # fmt: skip
-    particles.position += move
-
+    moves = (near.particles.fluid & (near.beside_surface == 0)).astype(np.uint8)
+    longest = LONGEST * near.stencil.spacing * paces
+    repulsion.shift(sums, moves, factor, longest, near.particles.position)
