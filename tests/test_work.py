@@ -32,7 +32,7 @@ PARTICLES = {
     "vectors.pad": 3, "vectors.add": 3, "vectors.put": 1, "moments.invert": 1,
     "moments.disorder": 1, "density.thin_or_lopsided": 1, "density.beside": 1,
     "repulsion.shift": 1, "repulsion.moved": 4,
-    "repulsion.overlap": 4, "tank.outside": 1, "column.beside": 2, "coarse.spread": 1,
+    "repulsion.part": 4, "tank.outside": 1, "column.beside": 2, "coarse.spread": 1,
 }  # fmt: skip
 # and what else a case asks for: eddies, or 13 gauges.
 ASKED = {

@@ -61,12 +61,12 @@ def close(const int[::1] row, const int[::1] other, const float[::1] inverse, do
     return found
 
 
-def overlap(const int[::1] indptr, const int[::1] indices, const double[:, ::1] position,
-            const double[:, ::1] before, const double[:, ::1] velocity,
-            const signed char[::1] role, stencil, double closest, double dt,
-            double[:, ::1] move, double[:, ::1] change):
-    """Displacement that parts pairs closer than `closest` (after Tsuruta et al. 2013) [m], and the
-    change of velocity that goes with it [m/s].
+def part(const int[::1] indptr, const int[::1] indices, double[:, ::1] position,
+         const double[:, ::1] before, double[:, ::1] velocity, const signed char[::1] role,
+         stencil, double closest, double dt, double[:, :, ::1] change):
+    """Part pairs closer than `closest` [m], and take their approach from them, in place.
+
+    After Tsuruta et al. 2013:
 
     dr_i = -s (sqrt(closest^2 - r_perp^2) - r_par) e, along the direction e that the pair had
     before the pressure moved it; s = 1/2 between fluid particles, 1 against a wall.  The velocity
@@ -75,16 +75,15 @@ def overlap(const int[::1] indptr, const int[::1] indices, const double[:, ::1] 
 
     indptr, indices : of pairs that may be so close (`close`)
     before : (n, 4) [m], the fourth number 0
+    change : (n, 2, 3) scratch
     """
     cdef double width = stencil.width, floor = stencil.floor
     cdef double dx, dy, dz, ex, ey, ez, r, rr, par, along, push, approach, share
     cdef double sx, sy, sz, ux, uy, uz
-    cdef Py_ssize_t i, k, j
+    cdef Py_ssize_t i, k, j, a
     with nogil:
         for i in range(indptr.shape[0] - 1):
-            move[i, 0] = move[i, 1] = move[i, 2] = 0.0
-            change[i, 0] = change[i, 1] = change[i, 2] = 0.0
-            if role[i] != FLUID:
+            if role[i] != FLUID or indptr[i] == indptr[i + 1]:
                 continue
             sx = sy = sz = ux = uy = uz = 0.0
             for k in range(indptr[i], indptr[i + 1]):
@@ -118,12 +117,13 @@ def overlap(const int[::1] indptr, const int[::1] indices, const double[:, ::1] 
                 ux -= share * approach * ex
                 uy -= share * approach * ey
                 uz -= share * approach * ez
-            move[i, 0] = sx
-            move[i, 1] = sy
-            move[i, 2] = sz
-            change[i, 0] = ux
-            change[i, 1] = uy
-            change[i, 2] = uz
+            change[i, 0, 0], change[i, 0, 1], change[i, 0, 2] = sx, sy, sz
+            change[i, 1, 0], change[i, 1, 1], change[i, 1, 2] = ux, uy, uz
+        for i in range(indptr.shape[0] - 1):
+            if role[i] == FLUID and indptr[i] < indptr[i + 1]:
+                for a in range(3):
+                    position[i, a] += change[i, 0, a]
+                    velocity[i, a] += change[i, 1, a]
 
 
 def collision(const int[::1] indptr, const int[::1] indices, const double[:, ::1] position,

@@ -27,7 +27,7 @@ def change(near, velocity, share, refresh):
     velocity = padded(velocity)
     refresh(velocity)
     found, out = np.empty((len(velocity), 2, 4)), np.empty((len(velocity), 3))
-    kernels.unevenness(*mine, near.stencil, velocity, found)
+    kernels.unevenness(*mine, near.stencil, near.first, near.second, velocity, found)
     refresh(found)
     kernels.transposed(*mine, near.stencil, found, out)
     return share * out

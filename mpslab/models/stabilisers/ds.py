@@ -19,10 +19,7 @@ def stabilise(near, dt, pace, scheme):
 def one_pass(near, dt, pace, scheme):
     """Part each pair once."""
     particles, closest = near.particles, scheme.ds_distance * near.stencil.spacing
-    move, change = np.empty_like(particles.position), np.empty_like(particles.velocity)
-    repulsion.overlap(
+    repulsion.part(
         *near.close(closest), particles.position, near.position, particles.velocity,
-        particles.role, near.stencil, closest, dt, move, change,
+        particles.role, near.stencil, closest, dt, np.empty((len(particles), 2, 3)),
     )  # fmt: skip
-    particles.position += move
-    particles.velocity += change
