@@ -166,6 +166,30 @@ def rear_pressure(settling, changes=None):
     return after_the_first.min(), after_the_first.max()
 
 
+def test_short_waves_of_half_a_spacing_lose_little():
+    """With the divergence counted at the surface, too, four of them lost 0.09 in two periods."""
+    assert np.mean([lost_in_two_periods(seed) for seed in range(4)]) < 0.065
+
+
+def lost_in_two_periods(seed):
+    """Share that the first mode of the volume loses in a standing wave of 31 spacings."""
+    case = load_case("standing_wave", {
+        "tank.length": 0.62, "tank.depth": 0.3, "tank.height": 0.4, "particles.spacing": 0.01,
+        "initial.amplitude": 0.005, "initial.mode": 4, "gauge": [], "particles.seed": seed,
+    })  # fmt: skip
+    k = 4.0 * math.pi / case.tank.length
+    half = math.pi / math.sqrt(GRAVITY * k * math.tanh(k * case.tank.depth))
+    simulation, time, mode = Simulation(case), [], []
+    while simulation.time < 7.0 * half:
+        simulation.advance()
+        x = simulation.particles.position[simulation.particles.fluid, 0]
+        time.append(simulation.time)
+        mode.append(np.cos(k * x).sum())
+    swing = np.array(time) // half
+    peaks = [np.abs(np.array(mode)[swing == n]).max() for n in range(7)]
+    return 1.0 - (peaks[5] + peaks[6]) / (peaks[1] + peaks[2])
+
+
 def test_standing_wave_has_its_linear_period_and_does_not_die():
     """The centre of the water swings from side to side; it crosses the middle every T/2."""
     case = load_case("standing_wave", {"particles.spacing": 0.004, "initial.amplitude": 0.01})

@@ -179,6 +179,8 @@ def _assemble(flow, graded, pull, dt):
         n = surface.filled_density(n, graded, flow.stencil)
     rate = density_rate(flow.case, flow.time)
     right = flow.source.source(near, velocity, n, dt, rate, flow.case.scheme)
+    if graded is not None and getattr(flow.source, "INSIDE_ONLY", False):
+        right *= 1.0 - graded
     if flow.case.scheme.projection == "start":
         relief = flow.case.scheme.relief
         flow.domain.refresh(right)

@@ -12,4 +12,7 @@ which returns b, (n,) float64 [1/s2].
     rate : float [1/s], at which the mixed sources take a density error back
         (`mpslab.run.step.density_rate`)
     scheme : the table of the case
+
+A module whose divergence is wrong where neighbours lie on one side says ``INSIDE_ONLY = True``: at
+a graded surface its b is left out.
 """
