@@ -304,7 +304,7 @@ def run_lost(run):
 def test_table_has_place_angle_and_speeds_of_bodies_and_tensions():
     line = {"name": "chain", "on": "box", "anchor": [0.01, 0.0, 0.01], "at": [0.03, 0.0, 0.02],
             "stiffness": 100.0, "length": 0.01}  # fmt: skip
-    run = advance(Simulation(tank_with(box(velocity=[0.2, 0.0, 0.0]), mooring=[line])), 30)
+    run = advance(Simulation(tank_with(box(velocity=[0.2, 0.0, 0.0]), mooring=[line])), 22)
     rows, (body,) = run.table("bodies"), fleet(run).bodies
     last = rows[-1]
     assert rows.dtype.names == ("time", "box x", "box z", "box roll", "box u", "box w",

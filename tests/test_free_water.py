@@ -48,8 +48,11 @@ def energy(simulation):
 
 
 def test_stretched_drop_follows_the_ellipse_and_keeps_its_energy():
-    """Without "ds", which takes energy out of rows that the stretch brings within its distance."""
-    models = {"scheme.stabiliser": ["corrected_shifting"], "particles.jitter": 0.0}
+    """Without "ds" and relief: on a lattice they take rows that the stretch has brought near one
+    another for water that is pressed together.
+    """
+    models = {"scheme.stabiliser": ["corrected_shifting"], "scheme.relief": 0.0,
+              "particles.jitter": 0.0}  # fmt: skip
     simulation = Simulation(free("strain", "disc", 0.1, **models))
     before, start = energy(simulation), semi_axes(water_of(simulation)[0])
     simulation.run(until=0.4)
@@ -90,7 +93,7 @@ def test_time_step_without_gravity_follows_from_the_rate():
     assert case.time.maximum == pytest.approx(0.2 * 0.1 / np.sqrt(2.0))
     assert cost(case)["expected steps"] == "71 to t = 1 s"
     heavy = free("rotation", "box", 0.1, **{"fluid.gravity": 9.81})
-    assert heavy.time.maximum == pytest.approx(0.3 * 0.1 / np.sqrt(9.81))
+    assert heavy.time.maximum == pytest.approx(0.4 * 0.1 / np.sqrt(9.81))
 
 
 def test_water_at_rest_without_gravity_stays_where_it_is():

@@ -19,7 +19,7 @@ from mpslab.output import checkpoint
 from mpslab.parallel import communicator, launch
 
 FILES = ("checkpoint.h5", "gauges.csv", "probes.csv", "lost.csv")
-END = ["--until", "0.018", "--no-pictures"]
+END = ["--until", "0.0235", "--no-pictures"]
 
 
 def finished(*arguments):

@@ -162,7 +162,7 @@ def test_frames_and_tables_are_told_with_their_size(tmp_path):
     told = float(lines["frames"].split(", ")[-1].split()[0]) * 1e3
     assert lines["frames"].startswith("11 of ")
     assert 0.4 < told / frames < 2.5
-    assert lines["tables"].startswith("53 rows of steps, 54 of gauges")
+    assert lines["tables"].startswith("40 rows of steps, 41 of gauges")
 
 
 def test_run_beyond_the_memory_of_the_machine_brings_a_warning(monkeypatch):

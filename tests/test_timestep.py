@@ -134,7 +134,7 @@ def test_water_without_neighbours_does_not_count_but_faces_that_move_do():
     assert max_speed_together(particles) == 30.0
 
 
-DRIP = {"tank.length": 0.04, "tank.depth": 0.01, "tank.height": 0.08, "time.start": 1.25e-3}
+DRIP = {"tank.length": 0.04, "tank.depth": 0.01, "tank.height": 0.08, "time.start": 2.5e-3}
 
 
 def drip(speed):
@@ -163,7 +163,7 @@ def test_fast_particle_goes_a_spacing_a_step_until_it_meets_water():
     """Then the step is as short as its speed asks for, and nothing is lost or blown up."""
     run, lone = drip(20.0)
     height, met = run.particles.position[lone, 2], False
-    for _ in range(200):
+    while run.time < 0.12:  # later some of the splash is over the walls
         run.advance()
         fallen = height - run.particles.position[lone, 2]
         assert fallen < 0.002 * 1.05 + 0.002 * met

@@ -216,7 +216,7 @@ def test_a_finished_run_is_kept_and_another_case_is_not(tmp_path):
 
 
 def test_an_interrupted_run_goes_on_from_its_checkpoint(tmp_path, monkeypatch):
-    task = Task("made", plan(changes={**TINY, "time.end": 0.5, "output.checkpoint": 0.01}),
+    task = Task("made", plan(changes={**TINY, "time.end": 2.0, "output.checkpoint": 0.01}),
                 tmp_path / "made" / "tiny")  # fmt: skip
     work = Work(1)
 

@@ -172,7 +172,7 @@ class Time:
     maximum: float = key(
         "largest dt; 0 for 0.4 spacing / sqrt(gravity depth), 0.1 with projection 'predicted'; "
         "in a tank that moves with the strongest pull on water at rest for gravity; without any "
-        "0.3 or 0.1 spacing / largest speed at the start",
+        "0.2 or 0.1 spacing / largest speed at the start",
         0.0,
         unit="s",
         low=0,

@@ -10,7 +10,7 @@ from math import hypot, sqrt
 
 # Shares of the time that a wave, or the fastest water, takes for a spacing.
 LARGEST = {"start": 0.4, "predicted": 0.1}
-WEIGHTLESS = {"start": 0.3, "predicted": 0.1}  # LARGEST where nothing weighs
+WEIGHTLESS = {"start": 0.2, "predicted": 0.1}  # LARGEST where nothing weighs
 COURANT = {"start": 0.5, "predicted": 0.2}
 PACE = 0.2
 
@@ -53,7 +53,7 @@ def choose(case, previous, max_speed, compression=0.0):
 def largest(case, gravity):
     """Largest time step where none is given [s]; 0 where nothing moves.
 
-    0.4 d0 / sqrt(g h) with the largest depth h, without gravity 0.3 d0 / speed at the start; 0.1 in
+    0.4 d0 / sqrt(g h) with the largest depth h, without gravity 0.2 d0 / speed at the start; 0.1 in
     both where the pressure acts at predicted positions, which damps waves by the step.
 
     Parameters
