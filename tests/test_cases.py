@@ -19,6 +19,7 @@ from mpslab.theory import waves
 
 NAMES = (
     "caisson",
+    "cylinder_in_waves",
     "dam_break",
     "floating_box",
     "focused_wave",
@@ -27,11 +28,13 @@ NAMES = (
     "overtopping",
     "plunging_breaker",
     "regular_waves",
+    "sluice",
     "solitary_runup",
+    "sphere_drop",
     "standing_wave",
     "wedge_entry",
 )
-TWO_DIMENSIONAL = set(NAMES) - {"dam_break", "plunging_breaker"}
+THREE_DIMENSIONAL = ("cylinder_in_waves", "dam_break", "plunging_breaker", "sphere_drop")
 
 
 def small(**tables):
@@ -56,7 +59,7 @@ def test_built_in_case_loads_and_comes_back_equal_from_its_own_toml(name):
     case = cases.load_case(name)
     assert case.name == name
     assert case.title
-    assert case.dim == (2 if name in TWO_DIMENSIONAL else 3)
+    assert case.dim == (3 if name in THREE_DIMENSIONAL else 2)
     assert cases.loads(cases.dumps(case)) == case
 
 
@@ -169,8 +172,9 @@ def test_other_built_in_cases_hold_what_their_comments_say():
 
 def test_only_the_coarse_built_in_cases_warn_and_only_of_their_wave():
     found = {name: cases.warnings(cases.load_case(name)) for name in NAMES}
-    (warning,) = found.pop("standing_wave")
-    assert "particles over the wave height" in warning
+    for name in ("standing_wave", "cylinder_in_waves"):
+        (warning,) = found.pop(name)
+        assert "particles over the wave height" in warning
     assert not any(found.values())
 
 

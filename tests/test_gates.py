@@ -170,6 +170,23 @@ def test_run_with_a_gate_goes_on_from_its_checkpoint_as_if_it_had_not_stopped(tm
         )
 
 
+def test_gate_stops_where_it_is_told_to_and_water_runs_out_below_it():
+    case = tank_with(gate(speed=1.0, lift=0.01))
+    assert rise(case, 0.005) == pytest.approx(0.005)
+    assert rise(case, 0.5) == pytest.approx(0.01)
+    sim = Simulation(case).run(until=0.1)
+    p = sim.particles
+    foot = p.position[is_gate(p), 2].min()
+    assert foot == pytest.approx(0.01 + 0.5 * D0)
+    below = p.fluid & (p.position[:, 0] > 0.03) & (p.position[:, 0] < 0.038)
+    assert p.position[below, 2].max() < 0.01
+    assert np.count_nonzero(p.fluid & (p.position[:, 0] > 0.04)) > 5 * 7 + 30
+
+
+def test_gate_is_not_lifted_farther_than_clear_of_the_walls():
+    assert rise(tank_with(gate(lift=9.0)), 10.0) == rise(tank_with(gate()), 10.0)
+
+
 CALLS = {
     name: ["steps", {**SIZE, "water": [LEFT, RIGHT], "gate": [gate()], **changes}, 20, DT]
     for name, changes in {

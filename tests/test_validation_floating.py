@@ -5,8 +5,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from validation.cylinder_in_waves import theory as pile
 from validation.floating import compare, radiation
 from validation.ship_section.compare import MASS, outline
+from validation.sphere_drop import theory as sphere
 
 
 @pytest.mark.parametrize(("shape", "share"), [("cylinder", 1.0), ("sphere", 0.5)])
@@ -43,3 +45,40 @@ def test_heave_of_a_cylinder_in_deep_water_is_that_of_maskell_and_ursell():
 def test_radiation_of_the_ship_section_has_the_measured_added_mass():
     w, added, _ = radiation.coefficients(outline(), 1.0, 9.81)
     assert 1000.0 * np.interp(2.0 * np.pi / 1.17, w, added) / MASS == pytest.approx(0.70, abs=0.04)
+
+
+def test_added_mass_of_a_hemisphere_follows_from_its_damping():
+    """Relation of Kramers and Kronig, for each wave of Hulme's table but the longest."""
+    times = np.linspace(0.0, 200.0, 40_001)
+    memory = sphere.memory(times)
+    for share, added, damping in zip(sphere.K[3:], sphere.ADDED[3:], sphere.DAMPING[3:], strict=True):
+        w = np.sqrt(share)
+        waves = np.trapezoid(memory * np.exp(1j * w * times), times)
+        assert sphere.AT_ONCE - waves.imag / w == pytest.approx(added, abs=0.003)
+        assert waves.real / w == pytest.approx(damping, abs=0.002)
+
+
+def test_sphere_that_is_let_go_heaves_with_the_period_of_its_mass_and_added_mass():
+    times = np.linspace(0.0, 1.0, 1001)
+    low = sphere.heave(0.001, 0.15, 9.81, 7.069, 1000.0, times)
+    crest = times[400 + np.argmax(low[400:])]
+    w = 2.0 * np.pi / crest
+    added = np.interp(w * w * 0.15 / 9.81, sphere.K, sphere.ADDED)
+    assert w * w * 0.15 / 9.81 == pytest.approx(1.5 / (1.0 + added), rel=0.03)
+    high = sphere.heave(0.14, 0.15, 9.81, 7.069, 1000.0, times)
+    assert times[400 + np.argmax(high[400:])] > 1.05 * crest  # a lifted sphere has less buoyancy
+
+
+def test_force_on_a_pile_is_that_of_maccamy_and_fuchs():
+    k = 2.2230  # 1.5 s in 0.5 m of water
+    size, lead = pile.force(k, 0.125, 0.5)
+    assert 1000.0 * 9.81 * 0.025 * size == pytest.approx(19.98, rel=2e-3)
+    thin, ahead = pile.force(k, 1e-3, 0.5)
+    assert thin == pytest.approx(2.0 * np.pi * 1e-6 * np.tanh(0.5 * k), rel=1e-3)  # C_M = 2
+    assert (ahead, lead) == (pytest.approx(0.5 * np.pi, abs=1e-3), pytest.approx(1.510, abs=1e-3))
+
+
+def test_side_walls_far_away_leave_the_force_on_a_pile_as_it_is():
+    k = 2.2230
+    alone = pile.force(k, 0.02, 0.5)[0]
+    assert pile.force(k, 0.02, 0.5, 2.0)[0] == pytest.approx(alone, rel=0.02)

@@ -117,6 +117,9 @@ class Gate:
     x: float = key("place of the face towards the wavemaker", unit="m", above=0)
     speed: float = key("speed at which it is lifted", unit="m/s", above=0, high=1e3)
     opens: float = key("time at which it begins to rise", 0.0, unit="s", low=0)
+    lift: float = key(
+        "how far it is lifted, as a sluice; 0 for clear of the walls", 0.0, unit="m", low=0
+    )
     name: str | None = key("its name; gate-1 and so on if left out", None, **NAME)
 
     def __post_init__(self):

@@ -1,7 +1,7 @@
 """Gates: plates across the tank that hold back water until they are lifted.
 
 A gate stands on the bed and reaches onshore from its place x.  It is drawn straight up at a
-constant speed until it is above the walls.  It is as thick as an obstacle has to be, so that the
+constant speed until it is above the walls, or as far as it is lifted.  It is as thick as an obstacle has to be, so that the
 water on one side does not press through to the other.
 """
 
@@ -46,9 +46,8 @@ class Gate(Solid):
         super().__init__(gate.name)
         self.tank = tank
         self.sides = faces(case)[number]
-        self.motion = Lift(
-            gate.speed, gate.opens, case.tank.height - beds.lowest(case.tank.bed, *self.sides)
-        )
+        clear = case.tank.height - beds.lowest(case.tank.bed, *self.sides)
+        self.motion = Lift(gate.speed, gate.opens, min(gate.lift or clear, clear))
 
     def particles(self, case):
         rows, roles = [], []
