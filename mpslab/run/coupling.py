@@ -8,7 +8,7 @@ first, has the pressure for these. What its forces still differ from mass times 
 good in the next step (`mpslab.solids.floating`).
 
 The added mass is that of the discrete equations: the forces by the pressure that answers a unit
-acceleration. It is found anew every few steps; until then the water has hardly changed. Where a
+acceleration. It is found anew now and then; until then the water has hardly changed. Where a
 body hits the water it has: there the answer moves the body by more than a little, and so the added
 mass is found at once, and the bodies answer again until little is left to change.
 """
@@ -23,7 +23,7 @@ from mpslab.pressure.system import SolverReport
 from mpslab.run import pressing
 from mpslab.solids.fleet import Fleet
 
-EVERY = 20  # steps: the added mass is found anew
+EVERY = 100  # steps: the added mass is found anew
 CLOSE = 1e-3  # spacings: more than that an answer must not change a move, or it is not the last one
 MOST = 6  # answers of the bodies in a step
 SUCTION = 2.0  # spacings of water, whose weight may pull at a body
