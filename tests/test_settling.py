@@ -70,7 +70,7 @@ def test_first_step_of_still_water_in_3d_has_its_weight():
 
 @pytest.mark.parametrize(("dim", "radius"), [(2, 1.8), (2, 2.1), (2, 2.25), (3, 2.1), (3, 2.5)])
 def test_number_density_of_settled_water_is_that_of_the_table(dim, radius):
-    """`Stencil.relaxed`, which in 3-D is that of moving water: 0.3 % less."""
+    """`Stencil.relaxed`, which in 3-D is that of moving water: 0.1 % less."""
     width = {"tank.width": 0.02, "tank.periodic": True, "tank.length": 0.03} if dim == 3 else {}
     scheme = {"scheme.effective_radius": radius, "scheme.laplacian_radius": radius}
     size = {"tank.length": 0.06, "tank.depth": 0.03}
@@ -82,8 +82,18 @@ def test_number_density_of_settled_water_is_that_of_the_table(dim, radius):
     inside = flow.particles.fluid & (np.abs(z - 0.015) < 0.015 - margin)
     inside &= (x > margin) & (x < flow.case.tank.length - margin)
     stencil = make_stencil(dim, D0, radius)
-    looser = 1.003 if dim == 3 else 1.0
+    looser = 1.001 if dim == 3 else 1.0
     assert n[inside].mean() == pytest.approx(looser * stencil.relaxed / stencil.n0, abs=0.005)
+
+
+def test_still_water_in_3d_keeps_its_level():
+    """With a number density that is wrong by half a per cent it rises by as much within a second."""
+    width = {"tank.width": 0.024, "tank.periodic": True, "tank.length": 0.04, "tank.depth": 0.04}
+    flow = {**width, "tank.height": 0.06, "time.end": 0.5}
+    sim = Simulation(make_case({**flow, **SETTLED}))
+    sim.run()
+    water = sim.particles.position[sim.particles.fluid, 2]
+    assert 2.0 * water.mean() == pytest.approx(0.04, rel=0.002)
 
 
 def test_settling_moves_the_pressure_with_the_water_and_leaves_no_lid():
