@@ -42,6 +42,8 @@ def counted(case):
 def test_particles_are_counted_as_they_are_laid_out(name, changes):
     if name in ("regular_waves", "solitary_runup", "irregular_waves", "focused_wave"):
         changes = {**changes, "particles.spacing": 0.004}
+    if name in ("cylinder_in_waves", "sphere_drop") and "tank.width" in changes:
+        changes = {**BARE, **changes}  # they have no slice
     case = cases.load_case(name, changes)
     real = laid_out(case)
     np.testing.assert_allclose(counted(case), real, rtol=0.02, atol=0.02 * real.sum())

@@ -18,6 +18,7 @@ from mpslab.run.flow import slabs_of, solver_of
 from mpslab.run.preflight_bodies import bodies
 from mpslab.run.preflight_frame import tank_motion
 from mpslab.run.preflight_solids import gaps, solids
+from mpslab.run.preflight_waters import waters
 from mpslab.run.preflight_text import sections
 from mpslab.solids import filling, gates, obstacles
 from mpslab.solids.census import census
@@ -56,7 +57,8 @@ class Preflight:
           [m]" and "tank_width [m]" in whole spacings; "laid_out": faces of the boxes of water,
           obstacles and gates, {"gate.0": {"x [m]": [low, high]}}, None for the bed or a wall;
           "solids": of each by name its "shape", "x [m]" and so on, "thinnest [m]", "volume [m3]"
-          (in 2-D "area [m2]") and, of a mesh, what was "mended" of its surface;
+          (in 2-D "area [m2]") and, of a mesh, what was "mended" of its surface; "waters": volumes
+          [m3], in 2-D areas [m2], of bodies of water that solids keep apart, where there are two;
         - "time_step [s]", "time_step_limit" (what holds it), "largest_time_step [s]", "end [s]",
           "steps", "run_time [s]" (on one core), "memory [B]";
         - "frames", "frame [B]", "readings" (rows of gauges.csv), "tables [B]";
@@ -121,6 +123,7 @@ def preflight(case):
     count = census(case, paddle.backmost if paddle else 0.0)
     found = {
         **_particles(case, count),
+        **waters(case, notes),
         **_cost(case, count.sum(), size, notes),
         **_results(case, count.sum(), size),
     }

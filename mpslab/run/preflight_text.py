@@ -49,6 +49,10 @@ def _particles(found):
         yield f"{name} in whole spacings", ", ".join(sides)
     for name, solid in found["solids"].items():
         yield name, _solid(solid, spacing)
+    if "waters" in found:
+        unit = "m3" if found["tank_width [m]"] else "m2"
+        sizes = ", ".join(f"{size:.3g} {unit}" for size in found["waters"])
+        yield "bodies of water", f"{len(found['waters'])}, of {sizes}, that solids keep apart"
 
 
 def _solid(solid, spacing):
