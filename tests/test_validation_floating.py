@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from validation import potential_flow
 from validation.cylinder_in_waves import theory as pile
 from validation.floating import compare, radiation
 from validation.ship_section.compare import MASS, outline
@@ -82,3 +83,16 @@ def test_side_walls_far_away_leave_the_force_on_a_pile_as_it_is():
     k = 2.2230
     alone = pile.force(k, 0.02, 0.5)[0]
     assert pile.force(k, 0.02, 0.5, 2.0)[0] == pytest.approx(alone, rel=0.02)
+
+
+def test_standing_wave_presses_on_a_wall_as_linear_theory_says_and_in_the_mean_as_its_radiation():
+    """Mean: twice S_xx = E (2 n - 1/2) of a wave of half the height (Longuet-Higgins & Stewart)."""
+    k, depth, gravity = 15.0, 0.1, 9.81
+    w = np.sqrt(gravity * k * np.tanh(k * depth))
+    n = 0.5 * (1.0 + 2.0 * k * depth / np.sinh(2.0 * k * depth))
+    for amplitude, share in ((1e-4, 1e-3), (5e-3, 0.02)):
+        _, force = potential_flow.wall_force(amplitude, np.pi / k, depth, gravity, w, 2)
+        linear = amplitude * np.tanh(k * depth) / k
+        assert force.max() == pytest.approx(linear, rel=share)
+        assert force.min() == pytest.approx(-linear, rel=share)
+    assert force.mean() == pytest.approx(0.25 * amplitude**2 * (2.0 * n - 0.5), rel=0.03)

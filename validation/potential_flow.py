@@ -12,6 +12,7 @@ import numpy as np
 ORDER, MODES = 7, 64
 WAVES = 512  # modes of a train in a long period
 STEPS = 400  # of time, a period
+STEEP_ORDER, STEEP_MODES = 5, 16  # of a wave at a wall, which with more of them breaks up
 
 
 @cache
@@ -46,6 +47,44 @@ def standing_wave(amplitude, length, depth, gravity, frequency, periods):
         state = _runge_kutta(state, dt, k, depth, gravity)
         mode[n + 1] = 2.0 * np.mean(state[0] * np.cos(k[1] * x))
     return dt * np.arange(count + 1), mode
+
+
+@cache
+def wall_force(amplitude, length, depth, gravity, frequency, periods):
+    """Force of a standing wave on the wall at x = 0, of a wave as in `standing_wave`.
+
+    Returns
+    -------
+    time : (n,) float64 [s]
+    force : (n,) float64 [m2]
+        Less that of still water, over rho g.
+    """
+    x = length / STEEP_MODES * np.arange(2 * STEEP_MODES)
+    k = np.pi / length * np.fft.rfftfreq(2 * STEEP_MODES, 0.5 / STEEP_MODES)
+    state = np.array([np.zeros_like(x), amplitude * gravity / frequency * np.cos(k[1] * x)])
+    dt = 2.0 * np.pi / frequency / STEPS
+    count = round(periods * STEPS)
+    found = np.zeros((count + 1, 4))
+    for n in range(count + 1):
+        rise = _rates(state, k, depth, gravity, 1.0, STEEP_ORDER)[0, 0]
+        found[n] = state[0, 0], *_at_wall(*state, k, depth), state[1, 0] * rise
+        state = _runge_kutta(state, dt, k, depth, gravity, order=STEEP_ORDER)
+    level, whole, speed, carried = found.T
+    given = np.gradient(whole, dt, edge_order=2) - carried + speed
+    return dt * np.arange(count + 1), -given / gravity - 0.5 * level**2
+
+
+def _at_wall(eta, phi, k, depth):
+    """Integrals of the potential, and of half the square of the velocity, over the wall at x = 0."""
+    modes = np.fft.rfft(sum(_orders(eta, phi, k, depth, STEEP_ORDER))).real / STEEP_MODES
+    modes[0] *= 0.5
+    place, weight = np.polynomial.legendre.leggauss(40)
+    z = 0.5 * (place + 1.0) * (eta[0] + depth)  # over the bed
+    shape = np.exp(np.outer(z - depth, k)), np.exp(np.outer(-z - depth, k))
+    scale = modes / (1.0 + np.exp(-2.0 * k * depth))
+    potential, speed = (shape[0] + shape[1]) @ scale, (shape[0] - shape[1]) @ (k * scale)
+    half = 0.5 * (eta[0] + depth) * weight
+    return half @ potential, half @ (0.5 * speed**2)
 
 
 @cache
@@ -90,9 +129,9 @@ def train(amplitude, length, depth, gravity, start, end, step, grown, places):
     return times, levels
 
 
-def _runge_kutta(state, dt, k, depth, gravity, share=1.0):
+def _runge_kutta(state, dt, k, depth, gravity, share=1.0, order=ORDER):
     def rates(state):
-        return _rates(state, k, depth, gravity, share)
+        return _rates(state, k, depth, gravity, share, order)
 
     first = rates(state)
     second = rates(state + 0.5 * dt * first)
@@ -101,13 +140,13 @@ def _runge_kutta(state, dt, k, depth, gravity, share=1.0):
     return state + dt / 6.0 * (first + 2.0 * second + 2.0 * third + fourth)
 
 
-def _rates(state, k, depth, gravity, share):
+def _rates(state, k, depth, gravity, share, order):
     """Rates of the elevation and of the potential at the surface, (2, n), without aliases.
 
     share : of what is nonlinear in them
     """
     eta, phi = state
-    w = _vertical_velocity(eta, phi, k, depth)
+    w = _vertical_velocity(eta, phi, k, depth, order)
     eta_x, phi_x = _filtered(eta, 1j * k), _filtered(phi, 1j * k)
     steep = 1.0 + eta_x**2
     rates = steep * w - eta_x * phi_x, -gravity * eta - 0.5 * phi_x**2 + 0.5 * steep * w**2
@@ -117,20 +156,26 @@ def _rates(state, k, depth, gravity, share):
     ])  # fmt: skip
 
 
-def _vertical_velocity(eta, phi, k, depth):
+def _vertical_velocity(eta, phi, k, depth, order):
     """Of the water at the surface, from the potential there."""
-    orders, w = [phi], np.zeros_like(phi)
-    for m in range(2, ORDER + 1):
-        orders.append(-sum(
-            eta**n / math.factorial(n) * _derivative(orders[m - n - 1], n, k, depth)
-            for n in range(1, m)
-        ))  # fmt: skip
-    for m in range(1, ORDER + 1):
+    orders, w = _orders(eta, phi, k, depth, order), np.zeros_like(phi)
+    for m in range(1, order + 1):
         w += sum(
             eta**n / math.factorial(n) * _derivative(orders[m - n - 1], n + 1, k, depth)
             for n in range(m)
         )
     return w
+
+
+def _orders(eta, phi, k, depth, order):
+    """The potential at the still water level, in orders of the steepness."""
+    orders = [phi]
+    for m in range(2, order + 1):
+        orders.append(-sum(
+            eta**n / math.factorial(n) * _derivative(orders[m - n - 1], n, k, depth)
+            for n in range(1, m)
+        ))  # fmt: skip
+    return orders
 
 
 def _derivative(phi, n, k, depth):

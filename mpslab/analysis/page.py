@@ -3,7 +3,7 @@
 import base64
 from pathlib import Path
 
-from mpslab.analysis import sheets, shoreside
+from mpslab.analysis import currents, sheets, shoreside
 
 
 def available():
@@ -36,6 +36,7 @@ def render(sea, pictures):
         headings=headings,
         rows=rows,
         reflection=sheets.reflection_lines(sea),
+        currents=[*currents.lines(sea.currents)],
         shore=shoreside.lines(sea.coast),
         expected=sheets.expected_lines(sea),
         pictures={name: _url(content) for name, content in pictures.items()},

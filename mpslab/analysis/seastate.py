@@ -4,7 +4,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mpslab.analysis import arrays, coast, crossings, readings, reflection, spectrum, windows
+from mpslab.analysis import (
+    arrays,
+    coast,
+    crossings,
+    currents,
+    readings,
+    reflection,
+    spectrum,
+    windows,
+)
 from mpslab.analysis.harmonics import HARMONICS, harmonics
 from mpslab.core import bed
 from mpslab.run.preflight import REGULAR
@@ -54,6 +63,8 @@ class Sea:
     reflection : mpslab.analysis.reflection.Reflection or None
     array : tuple of str
         Gauges that the reflection was taken from.
+    currents : (probes,) structured array
+        Mean velocities at the probes, as of `mpslab.analysis.currents.look`.
     coast : mpslab.analysis.coast.Coast
         Run-up, overtopping, the force on walls, and what is expected for the incident waves.
     notes : tuple of str
@@ -73,6 +84,7 @@ class Sea:
     waves: dict
     reflection: object
     array: tuple
+    currents: np.ndarray
     coast: coast.Coast
     notes: tuple
 
@@ -157,10 +169,10 @@ def analyse(
         notes.append(f"no reflection: {error}")
     table = _table(numbers, known.whole is not None)
     means = table["Tmean"][np.isfinite(table["Tmean"])]
+    each = known.whole or (float(means.mean()) if len(means) else period)
     shore = coast.look(
-        run, known.level, known.whole is not None, known.arrival, window, asked,
-        known.whole or (float(means.mean()) if len(means) else period), found,
-    )  # fmt: skip
+        run, known.level, known.whole is not None, known.arrival, window, asked, each, found
+    )
     return Sea(
         run=run,
         regular=known.whole is not None,
@@ -175,6 +187,7 @@ def analyse(
         waves=waves,
         reflection=found,
         array=array,
+        currents=currents.look(run, window, each),
         coast=shore,
         notes=(*notes, *shore.notes),
     )

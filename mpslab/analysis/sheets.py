@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 
-from mpslab.analysis import shoreside
+from mpslab.analysis import currents, shoreside
 from mpslab.analysis.seastate import UNITS
 
 PRINTED = ("x", "mean", "Hm0", "Hm0 scatter", "Tp", "Tm-1,0", "N", "H1/3", "H1/10", "Hmax")
@@ -17,8 +17,8 @@ def write(sea, folder):
     """Write the tables of a sea state into a folder.
 
     ``gauges.csv``; ``waves.csv``, the single waves; ``spectra.csv``, with 95 % bands unless the
-    waves are regular; ``reflection.csv``, ``runups.csv``, ``overtopping.csv`` (its events) and
-    ``walls.csv``, if there is anything to write; and ``sea.json``, which has everything but single
+    waves are regular; ``reflection.csv``, ``currents.csv`` (at the probes), ``runups.csv``,
+    ``overtopping.csv`` (its events) and ``walls.csv``, if there is anything to write; and ``sea.json``, which has everything but single
     waves and spectra.
 
     Parameters
@@ -33,6 +33,8 @@ def write(sea, folder):
     tables = {"gauges": _gauges(sea), "waves": _waves(sea), "spectra": _spectra(sea)}
     if sea.reflection is not None:
         tables["reflection"] = _reflection(sea.reflection)
+    if len(sea.currents):
+        tables["currents"] = currents.table(sea.currents)
     tables |= shoreside.tables(sea.coast)
     paths = []
     for name, (headings, rows) in tables.items():
@@ -42,7 +44,7 @@ def write(sea, folder):
     paths.append(folder / "sea.json")
     text = json.dumps(plain(as_dict(sea)), indent=2, allow_nan=False)
     paths[-1].write_text(text + "\n", encoding="utf-8")
-    for name in {"reflection", "runups", "overtopping", "walls"} - set(tables):
+    for name in {"reflection", "currents", "runups", "overtopping", "walls"} - set(tables):
         (folder / f"{name}.csv").unlink(missing_ok=True)
     return paths
 
@@ -119,6 +121,10 @@ def as_dict(sea):
             "floor": found.floor,
             "lost": found.lost,
         },
+        "currents": [
+            {"name": row["name"], **{f"{n} [{u}]": row[n] for n, u in currents.UNITS.items()}}
+            for row in sea.currents
+        ],
         **shoreside.as_dict(sea.coast),
         "expected": [dict(zip(sea.expected.dtype.names, row, strict=True)) for row in sea.expected],
         "notes": list(sea.notes),
@@ -149,6 +155,7 @@ def lines(sea):
     shown = [f"{kind}; {sea.window}; heights from {sea.band[0]:.3g} to {sea.band[1]:.3g} Hz"]
     shown += _table(*gauge_table(sea))
     shown += [f"  {line}" for line in reflection_lines(sea)]
+    shown += [f"  {line}" for line in currents.lines(sea.currents)]
     shown += [f"  {line}" for line in shoreside.lines(sea.coast)]
     shown += [f"  {line}" for line in expected_lines(sea)]
     return shown + [f"  ({note})" for note in sea.notes]

@@ -90,21 +90,24 @@ def _with_recipe(scheme):
 
 
 def _one_by_one(items, where):
-    """The tables, with as many [[gauge]] as a list of places x has: NAME-1, NAME-2 and so on."""
-    if where != "gauge" or not isinstance(items, list | tuple):
+    """The tables, with as many [[gauge]] as a list of places x has, or [[probe]] as one of heights
+    z has: NAME-1, NAME-2 and so on.
+    """
+    key = {"gauge": "x", "probe": "z"}.get(where)
+    if key is None or not isinstance(items, list | tuple):
         return items
     apart = []
     for i, values in enumerate(items):
-        places = values.get("x") if isinstance(values, dict) else None
+        places = values.get(key) if isinstance(values, dict) else None
         if not isinstance(places, list | tuple):
             apart.append(values)
             continue
         if not places:
-            raise CaseError(f"gauge.{i}.x = []: must be a number, or a list of numbers [m]")
+            raise CaseError(f"{where}.{i}.{key} = []: must be a number, or a list of numbers [m]")
         name = values.get("name")
-        for k, x in enumerate(places, 1):
+        for k, place in enumerate(places, 1):
             number = {"name": f"{name}-{k}"} if isinstance(name, str) else {}
-            apart.append({**values, **number, "x": x})
+            apart.append({**values, **number, key: place})
     return apart
 
 

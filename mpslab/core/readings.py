@@ -28,7 +28,9 @@ class Probe:
     name: str = key("heading of its columns", **NAME)
     x: float = key("distance from the wavemaker at rest", unit="m", low=0)
     y: float | None = key("place across the tank; mid width if left out", None, unit="m", low=0)
-    z: float = key("height above z = 0", unit="m", low=0)
+    z: float = key(
+        "height above z = 0; a list for a probe at each height, NAME-1 and so on", unit="m", low=0
+    )
 
     def __post_init__(self):
         check_table(self)
