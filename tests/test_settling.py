@@ -87,7 +87,7 @@ def test_number_density_of_settled_water_is_that_of_the_table(dim, radius):
 
 
 def test_still_water_in_3d_keeps_its_level():
-    """With a number density that is wrong by half a per cent it rises by as much within a second."""
+    """With a number density that is half a per cent too low it rises by as much in a second."""
     width = {"tank.width": 0.024, "tank.periodic": True, "tank.length": 0.04, "tank.depth": 0.04}
     flow = {**width, "tank.height": 0.06, "time.end": 0.5}
     sim = Simulation(make_case({**flow, **SETTLED}))

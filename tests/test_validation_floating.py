@@ -52,7 +52,8 @@ def test_added_mass_of_a_hemisphere_follows_from_its_damping():
     """Relation of Kramers and Kronig, for each wave of Hulme's table but the longest."""
     times = np.linspace(0.0, 200.0, 40_001)
     memory = sphere.memory(times)
-    for share, added, damping in zip(sphere.K[3:], sphere.ADDED[3:], sphere.DAMPING[3:], strict=True):
+    table = np.array([sphere.K, sphere.ADDED, sphere.DAMPING]).T
+    for share, added, damping in table[3:]:
         w = np.sqrt(share)
         waves = np.trapezoid(memory * np.exp(1j * w * times), times)
         assert sphere.AT_ONCE - waves.imag / w == pytest.approx(added, abs=0.003)

@@ -75,7 +75,7 @@ def wall_force(amplitude, length, depth, gravity, frequency, periods):
 
 
 def _at_wall(eta, phi, k, depth):
-    """Integrals of the potential, and of half the square of the velocity, over the wall at x = 0."""
+    """Integrals over the wall at x = 0 of the potential, and of half the square of the velocity."""
     modes = np.fft.rfft(sum(_orders(eta, phi, k, depth, STEEP_ORDER))).real / STEEP_MODES
     modes[0] *= 0.5
     place, weight = np.polynomial.legendre.leggauss(40)

@@ -18,8 +18,8 @@ def write(sea, folder):
 
     ``gauges.csv``; ``waves.csv``, the single waves; ``spectra.csv``, with 95 % bands unless the
     waves are regular; ``reflection.csv``, ``currents.csv`` (at the probes), ``runups.csv``,
-    ``overtopping.csv`` (its events) and ``walls.csv``, if there is anything to write; and ``sea.json``, which has everything but single
-    waves and spectra.
+    ``overtopping.csv`` (its events) and ``walls.csv``, if there is anything to write; and
+    ``sea.json``, which has everything but single waves and spectra.
 
     Parameters
     ----------

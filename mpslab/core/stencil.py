@@ -7,8 +7,8 @@ import numpy as np
 # Particles of moving water do not lie on the lattice.  In the arrangement that they find for
 # themselves, with the same mass in a volume, the sum of w differs by a few per cent; by how much
 # depends on which neighbours on the lattice the radius has just reached.  If water were held at n0,
-# it would sink or rise by as much.  Measured in settled water at each of these radii [spacings].  In
-# 3-D moving water has 0.1 % less than settled water (measured at 2.1), which is included.
+# it would sink or rise by as much.  Measured in settled water at each of these radii [spacings].
+# In 3-D moving water has 0.1 % less than settled water (measured at 2.1), which is included.
 RADII = (
     1.5, 1.6, 1.7, 1.75, 1.8, 1.9, 2, 2.05, 2.1, 2.15, 2.2,
     2.25, 2.3, 2.4, 2.45, 2.5, 2.6, 2.7, 2.8, 2.85, 2.9, 3,

@@ -18,8 +18,8 @@ from mpslab.run.flow import slabs_of, solver_of
 from mpslab.run.preflight_bodies import bodies
 from mpslab.run.preflight_frame import tank_motion
 from mpslab.run.preflight_solids import gaps, solids
-from mpslab.run.preflight_waters import waters
 from mpslab.run.preflight_text import sections
+from mpslab.run.preflight_waters import waters
 from mpslab.solids import filling, gates, obstacles
 from mpslab.solids.census import census
 from mpslab.solids.piston import make_paddle

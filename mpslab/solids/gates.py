@@ -1,8 +1,8 @@
 """Gates: plates across the tank that hold back water until they are lifted.
 
 A gate stands on the bed and reaches onshore from its place x.  It is drawn straight up at a
-constant speed until it is above the walls, or as far as it is lifted.  It is as thick as an obstacle has to be, so that the
-water on one side does not press through to the other.
+constant speed until it is above the walls, or as far as it is lifted.  It is as thick as an
+obstacle has to be, so that the water on one side does not press through to the other.
 """
 
 import numpy as np

@@ -48,7 +48,8 @@ def _row(k, width):
     if not np.isfinite(width):
         return np.zeros(len(orders), complex)
     apart = k * (1.0 + 1j * FADING) * width * np.arange(1, ROW + 1)
-    return np.array([2.0 * np.cos(0.5 * np.pi * l) * hankel1(l, apart).sum() for l in orders])
+    sums = np.array([hankel1(order, apart).sum() for order in orders])
+    return 2.0 * np.cos(0.5 * np.pi * orders) * sums
 
 
 def level(k, radius, x):

@@ -10,7 +10,8 @@ def compare(runs):
     """The finest run is judged."""
     result = Comparison()
     figure = result.figure("Height of the sphere", "time since the release [s]", "height / lift")
-    rows, spheres = [], [_Sphere(run) for run in sorted(runs.values(), key=lambda run: -run.spacing)]
+    spheres = [_Sphere(run) for run in sorted(runs.values(), key=lambda run: -run.spacing)]
+    rows = []
     for sphere in spheres:
         figure.line(sphere.run.label, sphere.time, sphere.found.place / sphere.lift)
         seen, right = sphere.found, sphere.theory
