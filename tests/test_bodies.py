@@ -8,6 +8,7 @@ from tanks import make_case
 from mpslab import Simulation
 from mpslab.core import rotation
 from mpslab.core.keys import CaseError
+from mpslab.run import coupling
 from mpslab.run.preflight import preflight
 from mpslab.solids import contact, mass
 from mpslab.solids.outlines import Circle, Polygon
@@ -163,7 +164,8 @@ def test_held_body_stays_until_it_is_let_go():
     assert 0.5 < body.velocity[2] / (run.time - began) < 0.5 * GRAVITY
 
 
-def test_added_mass_is_found_when_a_body_is_let_go_and_every_twenty_steps():
+def test_added_mass_is_found_when_a_body_is_let_go_and_every_so_many_steps(monkeypatch):
+    monkeypatch.setattr(coupling, "EVERY", 20)
     case = tank_with(ball(0.02, 0.015), ball(0.06, 0.015, name="late", release=0.003))
     run, ages = Simulation(case), []
     for _ in range(42):
