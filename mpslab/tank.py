@@ -61,6 +61,12 @@ def _main(arguments):
     except ValueError as error:  # before there are ranks that could agree which of them says it
         print(f"mpslab: {error}", file=sys.stderr)
         return BAD_INPUT
+    with _Stop() as stop:
+        return _with(comm, arguments, stop)
+
+
+def _with(comm, arguments, stop):
+    """Run the command line on the ranks of a communicator; returns the exit status."""
     aside = comm.Dup()
     tell = print if comm.rank == 0 else _silent
     simulation = None
@@ -69,6 +75,8 @@ def _main(arguments):
             options = _parser().parse_args(arguments)
             simulation = _prepared(options, arguments, comm, tell)
         except (ValueError, OSError) as error:
+            if stop.asked:
+                raise KeyboardInterrupt from error  # which a library took for an error of its own
             if not all_here(aside):
                 raise  # bad input, or a disk that is full, is so for all ranks
             if isinstance(error, OSError):
@@ -78,7 +86,10 @@ def _main(arguments):
                 return FAILED
             tell(f"mpslab: {error}", file=sys.stderr)
             return BAD_INPUT
-        return _run(simulation, options, tell) if simulation else 0
+        if not simulation:
+            return 0
+        stop.follow(simulation)
+        return _run(simulation, options, tell)
     except KeyboardInterrupt:
         tell("mpslab: stopped", file=sys.stderr)
         return INTERRUPTED
@@ -223,7 +234,6 @@ def _run(simulation, options, tell):
         # Said here: when a process is killed its launcher ends all of them, and none is left to say
         # it.
         tell(f"Should a process be killed, go on with\n  {_go_on(folder)}", flush=True)
-    earlier = _stop_on_signals(simulation)
     try:
         if tell is print:
             with make_progress(until, simulation.time) as progress:
@@ -243,9 +253,6 @@ def _run(simulation, options, tell):
         if error.errno in FULL:
             tell(f"Free space, then go on with\n  {_go_on(folder)}", file=sys.stderr)
         return FAILED
-    finally:
-        for number, handler in earlier.items():
-            signal.signal(number, handler)
     return _report(simulation, options, tell)
 
 
@@ -261,13 +268,33 @@ def _reason(error):
     return os.strerror(error.errno) if error.errno else " ".join(str(error).split())
 
 
-def _stop_on_signals(simulation):
-    """Let Ctrl-C end the run after the step in hand."""
+class _Stop:
+    """What Ctrl-C and SIGTERM do: they end the run after the step in hand, and before the first
+    step the program at once.
+    """
 
-    def stop(number, frame):
-        simulation.stop_requested = True
+    def __init__(self):
+        self.asked, self.simulation = False, None
 
-    return {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
+    def __enter__(self):
+        signals = signal.SIGINT, signal.SIGTERM
+        self.earlier = {number: signal.signal(number, self) for number in signals}
+        return self
+
+    def __exit__(self, *_):
+        for number, handler in self.earlier.items():
+            signal.signal(number, handler)
+
+    def __call__(self, number, frame):
+        self.asked = True
+        if self.simulation is None:
+            raise KeyboardInterrupt
+        self.simulation.stop_requested = True
+
+    def follow(self, simulation):
+        """From now on it is this run that is stopped; at once, if that was asked for before."""
+        self.simulation = simulation
+        simulation.stop_requested |= self.asked
 
 
 def _report(simulation, options, tell):

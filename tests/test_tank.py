@@ -164,6 +164,42 @@ def test_interrupt_ends_cleanly_and_the_run_can_go_on(tmp_path):
     assert go_on(out) == 0
 
 
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_stop_before_the_first_step_is_no_error_of_the_disk(capsys, monkeypatch, number):
+    """A library that is called meanwhile may make an error of its own of it."""
+
+    def prepared(*_):
+        try:
+            os.kill(os.getpid(), number)
+            time.sleep(1.0)
+        except KeyboardInterrupt:
+            raise OSError(5, "cannot read") from None
+
+    before = signal.getsignal(number)
+    monkeypatch.setattr(tank, "_prepared", prepared)
+    assert tank.main([]) == 130
+    assert capsys.readouterr().err == "mpslab: stopped\n"
+    assert signal.getsignal(number) is before
+
+
+def test_stop_that_is_lost_before_the_first_step_ends_the_run_at_it(tmp_path, monkeypatch):
+    made = tank._prepared
+
+    def prepared(*arguments):
+        simulation = made(*arguments)
+        try:
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(1.0)
+        except KeyboardInterrupt:
+            return simulation
+
+    monkeypatch.setattr(tank, "_prepared", prepared)
+    out = tmp_path / "run"
+    assert tank.main([*QUICK, "--out", str(out), "--no-pictures"]) == 130
+    assert json.loads((out / "run.json").read_text())["outcome"] == "interrupted"
+    assert checkpoint.read(out / "checkpoint.h5")[1]["step"] <= 1
+
+
 def test_killed_run_goes_on_from_its_last_checkpoint(tmp_path):
     out = tmp_path / "run"
     process = command(*QUICK, "--out", out, "--set", "output.checkpoint=0.01", "--no-pictures")

@@ -139,7 +139,8 @@ class Work:
             self._processes.discard(process)
         if status == DONE:
             return Outcome(task, "finished")
-        if status == INTERRUPTED:
+        # Stopped while it still loads its modules, a run dies of the signal.
+        if status in (INTERRUPTED, -signal.SIGINT):
             return Outcome(task, "interrupted")
         return Outcome(task, "failed", _reason(task.log))
 
