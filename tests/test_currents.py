@@ -54,7 +54,7 @@ def test_probe_that_falls_dry_has_the_mean_of_when_it_was_wet(found):
 
 def test_currents_are_written_and_told(found, tmp_path, capsys):
     paths = command.write(found, tmp_path)
-    rows = list(csv.reader((tmp_path / "currents.csv").open()))
+    rows = list(csv.reader((tmp_path / "currents.csv").read_text().splitlines()))
     assert rows[0][:5] == ["probe", "x [m]", "y [m]", "z [m]", "u [m/s]"]
     assert [row[0] for row in rows[1:]] == ["deep", "high", "dry"]
     assert "current &#39;deep&#39;" in paths[-1].read_text()
