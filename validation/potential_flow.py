@@ -37,9 +37,7 @@ def standing_wave(amplitude, length, depth, gravity, frequency, periods):
     mode : (n,) float64 [m]
         Amplitude of cos(pi x / length) in the surface.
     """
-    x = length / MODES * np.arange(2 * MODES)  # and its mirror image beyond the wall
-    k = np.pi / length * np.fft.rfftfreq(2 * MODES, 0.5 / MODES)
-    state = np.array([np.zeros_like(x), amplitude * gravity / frequency * np.cos(k[1] * x)])
+    x, k, state = _at_start(amplitude, length, gravity, frequency, MODES)
     dt = 2.0 * np.pi / frequency / STEPS
     count = round(periods * STEPS)
     mode = np.zeros(count + 1)
@@ -59,9 +57,7 @@ def wall_force(amplitude, length, depth, gravity, frequency, periods):
     force : (n,) float64 [m2]
         Less that of still water, over rho g.
     """
-    x = length / STEEP_MODES * np.arange(2 * STEEP_MODES)
-    k = np.pi / length * np.fft.rfftfreq(2 * STEEP_MODES, 0.5 / STEEP_MODES)
-    state = np.array([np.zeros_like(x), amplitude * gravity / frequency * np.cos(k[1] * x)])
+    _, k, state = _at_start(amplitude, length, gravity, frequency, STEEP_MODES)
     dt = 2.0 * np.pi / frequency / STEPS
     count = round(periods * STEPS)
     found = np.zeros((count + 1, 4))
@@ -72,6 +68,13 @@ def wall_force(amplitude, length, depth, gravity, frequency, periods):
     level, whole, speed, carried = found.T
     given = np.gradient(whole, dt, edge_order=2) - carried + speed
     return dt * np.arange(count + 1), -given / gravity - 0.5 * level**2
+
+
+def _at_start(amplitude, length, gravity, frequency, modes):
+    """Places [m], wave numbers [1/m] and state of a standing wave that is level at the start."""
+    x = length / modes * np.arange(2 * modes)  # and the mirror image beyond the wall
+    k = np.pi / length * np.fft.rfftfreq(2 * modes, 0.5 / modes)
+    return x, k, np.array([np.zeros_like(x), amplitude * gravity / frequency * np.cos(k[1] * x)])
 
 
 def _at_wall(eta, phi, k, depth):

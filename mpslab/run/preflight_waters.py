@@ -48,6 +48,8 @@ class _Cells:
     ----------
     water, air : (nx, ny, nz) bool
         Which of them hold water at the start, and which hold nothing.
+    axes : list of int
+        Those that the tank has, 0, 1 and 2 for x, y and z.
     width, volume : float [m], [m3] or in 2-D [m2]
         Of a cell.
     """
@@ -56,32 +58,30 @@ class _Cells:
         tank, self.case = case.tank, case
         low = np.array([0.0, 0.0, min(z for _, z in tank.bed)])
         high = np.array([effective_length(case), tank.width, tank.height])
-        axes = [0, 1, 2] if case.dim == 3 else [0, 2]
-        room = np.prod((high - low)[axes])
+        self.axes = [0, 1, 2] if case.dim == 3 else [0, 2]
+        room = np.prod((high - low)[self.axes])
         self.width = max(case.particles.spacing, (room / MOST) ** (1.0 / case.dim))
         self.volume = self.width**case.dim
         count = np.ceil((high - low) / self.width - 1e-6).astype(int)
-        self.shape = tuple(np.maximum(count, 1))
+        shape = tuple(np.maximum(count, 1))
         sides = (a + self.width * (np.arange(n) + 0.5)
-                 for a, n in zip(low, self.shape, strict=True))  # fmt: skip
+                 for a, n in zip(low, shape, strict=True))  # fmt: skip
         self.place = np.stack(np.meshgrid(*sides, indexing="ij"), axis=-1).reshape(-1, 3)
         if case.dim == 2:
             self.place[:, 1] = 0.0
         free = self.place[:, 2] > beds.elevation(tank.bed, self.place[:, 0])
         free &= ~obstacles.holds(case, self.place) & ~shaped.holds(case, self.place)
-        for left, right in gates.faces(case):
-            free &= (self.place[:, 0] < left) | (self.place[:, 0] > right)
+        free &= ~gates.holds(case, self.place[:, 0])
         wet = self._filled()
-        self.water, self.air = (free & part for part in (wet, ~wet))
+        self.water, self.air = ((free & part).reshape(shape) for part in (wet, ~wet))
 
     def _filled(self):
         """Which cells are in the water of the case, solids or not, (n,) bool."""
         case, found = self.case, np.zeros(len(self.place), bool)
         boxes = [(w.shape, w.start, w.end) for w in case.water]
-        axes = [0, 1, 2] if case.dim == 3 else [0, 2]
         for shape, start, end in boxes or [("box", *filling.filled(case))]:
-            low, high = (np.array(corner, float)[axes] for corner in (start, end))
-            place = self.place[:, axes]
+            low, high = (np.array(corner, float)[self.axes] for corner in (start, end))
+            place = self.place[:, self.axes]
             if shape == "disc":
                 off = (place - 0.5 * (low + high)) / (0.5 * (high - low))
                 found |= off[:, 0] ** 2 + off[:, -1] ** 2 < 1.0
@@ -91,10 +91,10 @@ class _Cells:
 
     def bodies(self):
         """Number of the body of water of each cell, -1 for none, and how many cells each has."""
-        number, count = scipy.ndimage.label(self.water.reshape(self.shape))
+        number, count = scipy.ndimage.label(self.water)
         if self.case.dim == 3 and self.case.tank.periodic:
             number = self._wrapped(number, count)
-        number = number.ravel() - 1
+        number -= 1
         return number, np.bincount(number[number >= 0], minlength=count)
 
     def _wrapped(self, number, count):
@@ -109,17 +109,15 @@ class _Cells:
         return first[joined][number]
 
     def meets_air(self, body):
-        """Whether a body of water, (n,) bool, has a cell of air, or the open top, over a cell."""
-        body, air = body.reshape(self.shape), self.air.reshape(self.shape)
+        """Whether a body of water, (nx, ny, nz) bool, has air, or the open top, over a cell."""
         if not self.case.tank.lid and body[:, :, -1].any():
             return True
-        return bool((body[:, :, :-1] & air[:, :, 1:]).any())
+        return bool((body[:, :, :-1] & self.air[:, :, 1:]).any())
 
     def shut_in(self, body):
-        """The warning that a body of water, (n,) bool, is shut in."""
-        middle = self.place[body].mean(axis=0)
-        axes = [0, 1, 2] if self.case.dim == 3 else [0, 2]
-        where = ", ".join(f"{'xyz'[k]} = {middle[k]:.3g}" for k in axes)
+        """The warning that a body of water, (nx, ny, nz) bool, is shut in."""
+        middle = self.place[body.ravel()].mean(axis=0)
+        where = ", ".join(f"{'xyz'[k]} = {middle[k]:.3g}" for k in self.axes)
         unit = "m3" if self.case.dim == 3 else "m2"
         return (
             f"{body.sum() * self.volume:.3g} {unit} of water about {where} m are shut in: nothing "

@@ -48,7 +48,7 @@ def section(case, row=0):
 def columns(case, start, end):
     """x of the columns of water in a box that stand in no gate [m], a list."""
     along = between(case, start[0], min(end[0], effective_length(case)))
-    return [x for x in along if not gates.holds(case, x)]
+    return [*along[~gates.holds(case, along)]]
 
 
 def _box(case, start, end, phase):

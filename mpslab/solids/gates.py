@@ -22,8 +22,11 @@ def faces(case):
 
 
 def holds(case, x):
-    """Whether a place x [m] is inside a gate."""
-    return any(low < x < high for low, high in faces(case))
+    """Whether places x (n,) [m] are inside a gate, (n,) bool."""
+    found = np.zeros(len(x), bool)
+    for low, high in faces(case):
+        found |= (low < x) & (x < high)
+    return found
 
 
 class Gate(Solid):
