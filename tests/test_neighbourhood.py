@@ -7,7 +7,7 @@ import pytest
 from tanks import SINGLE, cloud, lattice, near_of, neighbors_of, particles_at
 
 from mpslab.core import plugins
-from mpslab.core.neighbourhood import Neighbourhood, padded
+from mpslab.core.neighbourhood import SLACK, Neighbourhood, padded
 from mpslab.core.particles import FACE, FILLER, FLUID
 from mpslab.core.stencil import make_stencil
 from mpslab.kernels import viscosity
@@ -354,3 +354,26 @@ def test_pairs_taken_from_another_radius_are_as_those_measured(dim):
     assert np.array_equal(taken.correction, measured.correction)
     # The neighbourhood that they were taken from keeps its own.
     assert not np.array_equal(near.offset[:pairs, 3], taken.offset[:pairs, 3])
+
+
+@pytest.mark.parametrize("dim", DIMS)
+def test_close_pairs_are_found_wherever_the_particles_have_gone(dim):
+    """All of them, and no pair that is more than the slack too far; each row in its order."""
+    near, _ = setting(dim)
+    x, nearest, random = near.particles.position, 0.8, np.random.default_rng(3)
+    pairs = np.zeros((len(x), len(x)), bool)
+    here = np.repeat(np.arange(len(x)), np.diff(near.row))
+    pairs[here, near.other] = True
+    kept = 0
+    for path in (0.0, 0.3, 0.01, 0.0, 0.2, 0.1):
+        x += path * random.uniform(-1.0, 1.0, x.shape) * [1.0, dim - 2.0, 1.0]
+        before = near._close
+        row, other = near.close(nearest)
+        kept += near._close is before
+        found = np.zeros_like(pairs)
+        found[np.repeat(np.arange(len(x)), np.diff(row)), other] = True
+        distance = plain(near.particles, dim, WIDTH if dim == 3 else 0.0).distance
+        assert np.all(found[pairs & (distance < nearest)])
+        assert np.all((distance < nearest + 2.0 * SLACK)[found])
+        assert np.array_equal(other, near.other[found[here, near.other]])
+    assert kept == 2  # where next to nothing has moved they are not looked for again

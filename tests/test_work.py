@@ -31,7 +31,7 @@ PARTICLES = {
     "cells.marked": 1, "vectors.take": 5,
     "vectors.pad": 3, "vectors.add": 3, "vectors.put": 1, "moments.invert": 1,
     "moments.disorder": 1, "density.thin_or_lopsided": 1, "density.beside": 1,
-    "repulsion.shift": 1, "repulsion.moved": 4,
+    "repulsion.shift": 1, "repulsion.gone": 3,
     "repulsion.part": 4, "tank.outside": 1, "column.beside": 2, "coarse.spread": 1,
 }  # fmt: skip
 # and what else a case asks for: eddies, or 13 gauges.
@@ -49,7 +49,7 @@ ASKED = {
 AT_MOST = {
     "sparse.multiply": (2, 1), "coarse.gather": (2, 1), "coarse.substitute": (2, 1),
     "coarse.take_off": (1, 1), "sparse.slab_dots": (4, 3), "sparse.dot": (0, 1),
-    "repulsion.close": (2, 0),
+    "repulsion.moved": (4, 0), "repulsion.reached": (2, 0), "repulsion.closer": (4, 0),
     "collect": (9, 2), "refresh": (9, 0), "share_out": (1, 0), "from_all": (12, 0),
 }  # fmt: skip
 NEIGHBOURS = {"dam_break": 40, "regular_waves": 15}  # a row has at most, in the mean

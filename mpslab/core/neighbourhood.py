@@ -11,7 +11,7 @@ from mpslab.kernels import density, divergence, measure, moments, repulsion, vec
 # next away.  There C = I, and the pair of the conservative gradient is that of p_i + p_j.
 LEAST_DETERMINANT = 0.6
 LANES = 16  # as in mpslab/kernels/pair.pxd
-SLACK = 0.05  # spacings: so much farther may a particle go before close pairs are looked for again
+SLACK = 0.1  # spacings: so much may be missing to a pair that counts as close
 
 
 class Neighbourhood:
@@ -88,7 +88,7 @@ class Neighbourhood:
             self.position, particles.role, self.row, self.other, self.stencil, smooth, self.solid,
             self._behind, self.offset, self.straight, self.inverse, self.first, self.second,
         )  # fmt: skip
-        self._correction = self._lean = self._close = None
+        self._correction = self._lean = self._close = self._reached = None
         self._beside = self._disorder = None
         return self
 
@@ -144,7 +144,7 @@ class Neighbourhood:
             setattr(found, name, getattr(self, name).take(members, 0))
         if self._correction is not None:
             found._correction = self._correction.take(members, 0)
-        found._lean = found._close = found._beside = found._disorder = None
+        found._lean = found._close = found._reached = found._beside = found._disorder = None
         return found
 
     def pick(self, values):
@@ -250,22 +250,44 @@ class Neighbourhood:
     def close(self, distance):
         """Rows of the pairs that may be closer than a distance [m] where the particles are now.
 
-        Pairs that were as close when they were measured, and those whose two particles have
-        together moved by the distance that was missing.
+        They are looked for anew when particles have gone so far that others may have come near.
 
         Returns
         -------
         row : (n + 1,) int32
         other : (m,) int32
         """
-        moved = np.empty(len(self.particles))
+        position, width = self.particles.position, self.stencil.width
+        slack = SLACK * self.stencil.spacing
+        if self._close is not None:
+            found, reach, there = self._close
+            if distance <= reach and not repulsion.gone(position, there, width, 0.5 * slack):
+                return found
+        row, other = self._within_reach(distance + slack)
+        closer = np.empty_like(row), np.empty(len(other) + 1, np.int32)
+        count = repulsion.closer(row, other, position, width, distance + slack, *closer)
+        self._close = (closer[0], closer[1][:count]), distance, position.copy()
+        return self._close[0]
+
+    def _within_reach(self, distance):
+        """As `close`, told from the paths of the particles: more pairs, and for longer.
+
+        Pairs that were as close when they were measured, and those whose two particles have
+        together moved by the distance that was missing.
+        """
+        moved = np.empty(len(self.particles), np.float32)
         repulsion.moved(self.particles.position, self.position, self.stencil.width, moved)
-        if self._close is None or self._path[0] < distance or np.any(moved > self._path[1]):
-            self._path = distance, moved + SLACK * self.stencil.spacing
-            row, other = np.empty_like(self.row), np.empty(len(self.other) + 1, np.int32)
-            found = repulsion.close(self.row, self.other, self.inverse, *self._path, row, other)
-            self._close = row, other[:found]
-        return self._close
+        if self._reached is not None:
+            found, reach, path = self._reached
+            if distance <= reach and np.all(moved <= path):
+                return found
+        path = moved + np.float32(0.5 * SLACK * self.stencil.spacing)
+        found = np.empty_like(self.row), np.empty(len(self.other) + LANES, np.int32)
+        count = repulsion.reached(
+            self.row, self.other, self.inverse, path + np.float32(0.5 * distance), *found
+        )
+        self._reached = (found[0], found[1][:count]), distance, path
+        return self._reached[0]
 
 
 def padded(rows):

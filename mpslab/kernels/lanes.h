@@ -141,6 +141,25 @@ INLINE int near_eight(const double *xs, const double *ys, const double *zs, doub
         | near_four(load(xs + 4) - x, load(ys + 4) - y, load(zs + 4) - z, limit, width) << 4;
 }
 
+/* Which of `count` pairs, eight at most, are as near as two reaches together: a bit each. */
+INLINE int reached_eight(const float *inverse, const int *other, const float *reach, float mine,
+                         long count) {
+    const float least = 1.0f - 1e-5f; /* for the rounding */
+#ifdef __AVX2__
+    __m256i wanted = _mm256_cmpgt_epi32(_mm256_set1_epi32(count < 8 ? (int)count : 8),
+                                        _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+    __m256i there = _mm256_maskload_epi32(other, wanted);
+    __m256 both = _mm256_set1_ps(mine) + _mm256_i32gather_ps(reach, there, 4);
+    __m256 near = _mm256_cmp_ps(_mm256_loadu_ps(inverse) * both, _mm256_set1_ps(least), _CMP_GE_OQ);
+    return _mm256_movemask_ps(_mm256_and_ps(near, _mm256_castsi256_ps(wanted)));
+#else
+    int near = 0;
+    for (long k = 0; k < 8 && k < count; k++)
+        near |= (inverse[k] * (mine + reach[other[k]]) >= least) << k;
+    return near;
+#endif
+}
+
 /* For each choice among eight, a bit each: the numbers of those chosen, a byte each. */
 static unsigned long long chosen[256];
 

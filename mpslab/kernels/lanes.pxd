@@ -23,6 +23,8 @@ cdef extern from "lanes.h" nogil:
     four nearest(four v, double width) noexcept
     int near_eight(const double* xs, const double* ys, const double* zs, double x, double y,
                    double z, double limit, double width) noexcept
+    int reached_eight(const float* inverse, const int* other, const float* reach, float mine,
+                      long count) noexcept
     void prepare_squeeze() noexcept
     int squeeze(int* to, const int* numbers, int choice) noexcept
     double row_of_singles(const float* value, const int* place, const double* x,

@@ -1,6 +1,7 @@
 """Displacements that keep particles apart: shifting, dynamic stabilisation, collision."""
 from libc.math cimport sqrt
 
+from mpslab.kernels.lanes cimport prepare_squeeze, reached_eight, squeeze
 from mpslab.kernels.pair cimport FLUID, distance, has_pressure, wrap
 
 
@@ -25,7 +26,7 @@ def shift(const double[:, ::1] sums, const unsigned char[::1] moves, double fact
 
 
 def moved(const double[:, ::1] position, const double[:, ::1] before, double width,
-          double[::1] out):
+          float[::1] out):
     """How far each particle has gone [m]; `before` is (n, 4)."""
     cdef double dx, dy, dz
     cdef Py_ssize_t i
@@ -37,26 +38,71 @@ def moved(const double[:, ::1] position, const double[:, ::1] before, double wid
             out[i] = sqrt(dx * dx + dy * dy + dz * dz)
 
 
-def close(const int[::1] row, const int[::1] other, const float[::1] inverse, double distance,
-          const double[::1] path, int[::1] close_row, int[::1] close_other):
-    """Rows of the pairs that are closer than a distance [m], or may be after both have gone a path.
+def gone(const double[:, ::1] position, const double[:, ::1] before, double width,
+         double distance):
+    """Whether a particle has gone farther than a distance [m] from `before`, (n, 3)."""
+    cdef double dx, dy, dz, limit = distance * distance
+    cdef Py_ssize_t i
+    cdef bint found = False
+    with nogil:
+        for i in range(position.shape[0]):
+            dx = position[i, 0] - before[i, 0]
+            dy = wrap(position[i, 1] - before[i, 1], width)
+            dz = position[i, 2] - before[i, 2]
+            if dx * dx + dy * dy + dz * dz > limit:
+                found = True
+                break
+    return found
 
-    path : (n,) [m], how far each particle may have gone
+
+def closer(const int[::1] row, const int[::1] other, const double[:, ::1] position, double width,
+           double distance, int[::1] close_row, int[::1] close_other):
+    """Rows of those pairs of a list that are closer than a distance [m]; how many there are.
+
+    position : (n, 3) [m]
     close_row : (n + 1,) out, close_other : (m + 1,) out
-
-    Returns how many there are.  `distance` is taken a millionth longer, because inverse is rounded.
     """
-    cdef double reach
-    cdef Py_ssize_t i, k
+    cdef double dx, dy, dz, limit = distance * distance
+    cdef Py_ssize_t i, k, j
     cdef int found = 0
     with nogil:
         for i in range(close_row.shape[0] - 1):
             close_row[i] = found
-            reach = distance + path[i]
             for k in range(row[i], row[i + 1]):
-                if inverse[k] * (reach + path[other[k]]) >= 1.0 - 1e-6:
-                    close_other[found] = other[k]
-                    found += 1
+                j = other[k]
+                dx = position[j, 0] - position[i, 0]
+                dy = wrap(position[j, 1] - position[i, 1], width)
+                dz = position[j, 2] - position[i, 2]
+                close_other[found] = j
+                found += dx * dx + dy * dy + dz * dz < limit
+        close_row[close_row.shape[0] - 1] = found
+    return found
+
+
+def reached(const int[::1] row, const int[::1] other, const float[::1] inverse,
+            const float[::1] reach, int[::1] close_row, int[::1] close_other):
+    """Rows of the pairs whose distance is at most the reaches of both together; how many there are.
+
+    inverse : (m + LANES,), 1/r of the pairs [1/m]
+    reach : (n,) [m]
+    close_row : (n + 1,) out, close_other : (m + 8,) out
+
+    With a millionth of slack, because all this is rounded.
+    """
+    cdef Py_ssize_t i, k, m, pairs = other.shape[0]
+    cdef int found = 0, near
+    prepare_squeeze()
+    with nogil:
+        for i in range(close_row.shape[0] - 1):
+            close_row[i] = found
+            for k in range(row[i], row[i + 1], 8):
+                near = reached_eight(&inverse[k], &other[k], &reach[0], reach[i], row[i + 1] - k)
+                if k + 8 <= pairs:
+                    found += squeeze(&close_other[found], &other[k], near)
+                    continue
+                for m in range(k, pairs):
+                    close_other[found] = other[m]
+                    found += near >> (m - k) & 1
         close_row[close_row.shape[0] - 1] = found
     return found
 
