@@ -62,10 +62,10 @@ def _main(arguments):
         print(f"mpslab: {error}", file=sys.stderr)
         return BAD_INPUT
     with _Stop() as stop:
-        return _with(comm, arguments, stop)
+        return _on_ranks(comm, arguments, stop)
 
 
-def _with(comm, arguments, stop):
+def _on_ranks(comm, arguments, stop):
     """Run the command line on the ranks of a communicator; returns the exit status."""
     aside = comm.Dup()
     tell = print if comm.rank == 0 else _silent

@@ -10,6 +10,7 @@ from validation.cylinder_in_waves import theory as pile
 from validation.floating import compare, radiation
 from validation.ship_section.compare import MASS, outline
 from validation.sphere_drop import theory as sphere
+from validation.swing import first_swing
 
 
 @pytest.mark.parametrize(("shape", "share"), [("cylinder", 1.0), ("sphere", 0.5)])
@@ -97,3 +98,19 @@ def test_standing_wave_presses_on_a_wall_as_linear_theory_says_and_in_the_mean_a
         assert force.max() == pytest.approx(linear, rel=share)
         assert force.min() == pytest.approx(-linear, rel=share)
     assert force.mean() == pytest.approx(0.25 * amplitude**2 * (2.0 * n - 0.5), rel=0.03)
+
+
+def test_a_swing_has_its_first_trough_and_crest_between_the_rows():
+    time = np.arange(0.0, 3.0, 0.013)
+    swing = first_swing(time, 0.5 + 0.2 * np.exp(-0.4 * time) * np.cos(2.0 * np.pi * time), 0.03)
+    late = np.arctan2(0.4, 2.0 * np.pi) / (2.0 * np.pi)  # by which the extremes come early
+    low, high = 0.2 * np.cos(2.0 * np.pi * late) * np.exp(-0.4 * np.array([0.5 - late, 1.0 - late]))
+    assert swing.trough == pytest.approx(0.5 - low, abs=1e-4)
+    assert swing.crest == pytest.approx(0.5 + high, abs=1e-4)
+    assert swing.crest_at == pytest.approx(1.0 - late, abs=1e-3)
+
+
+def test_a_body_that_has_not_come_up_has_no_crest():
+    time = np.linspace(0.0, 1.0, 101)
+    swing = first_swing(time, -time, 0.03)
+    assert np.isnan(swing.crest) and np.isnan(swing.crest_at)

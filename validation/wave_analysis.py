@@ -1,7 +1,9 @@
-"""What a wave loses along the tank, and the modes of a closed one."""
+"""What a wave loses along the tank, what comes back, and the modes of a closed one."""
 
 import numpy as np
 
+from mpslab.analysis import reflection
+from mpslab.analysis.harmonics import harmonics
 from mpslab.theory.waves import group_celerity
 
 
@@ -35,6 +37,31 @@ def travel(run, to=None):
     wet = middle < middle[np.argmax(depth <= 0.0)] if (depth <= 0.0).any() else depth > 0.0
     speed = [group_celerity(case.wavemaker.period, h, run.gravity) for h in depth[wet]]
     return float(np.sum(np.diff(x)[wet] / speed))
+
+
+def separate(run, names, start, periods):
+    """Incident and reflected waves of a run's wavemaker at some gauges.
+
+    Parameters
+    ----------
+    run : validation.run.Run
+    names : list of str
+        Names of the gauges.
+    start : float [s]
+    periods : int
+        How many, from the start on, the harmonics are taken over.
+
+    Returns
+    -------
+    mpslab.analysis.reflection.Reflection
+    """
+    period = run.case.wavemaker.period
+    gauges = [gauge for gauge in run.case.gauge if gauge.name in names]
+    amplitudes = np.array([
+        harmonics(*run.gauge(gauge.name), period, start, periods)[1:] for gauge in gauges
+    ])  # fmt: skip
+    x = np.array([gauge.x for gauge in gauges])
+    return reflection.of_harmonics(amplitudes, x, period, run.depth, run.gravity)
 
 
 def modes(run, number):

@@ -49,7 +49,7 @@ def unevenness(const int[::1] row, const int[::1] solid, const int[::1] other,
                 b = ended(times(dim * share, turned(moment, load(lean))), 0.0)
             here, sums, all_ = load(&velocity[i, 0]), nothing(), 0.0
             for k in range(row[i], solid[i]):
-                one = part(weight(inverse[k], radius), -1.0, b, &offset[k, 0])
+                one = coupling(weight(inverse[k], radius), -1.0, b, &offset[k, 0])
                 sums = plus(sums, one, minus(load(&velocity[other[k], 0]), here))
                 all_ += one
             store(&found[i, 0, 0], ended(times(share, sums), share * all_))
@@ -73,8 +73,8 @@ cdef inline void of_water(Py_ssize_t begin, Py_ssize_t end, const float[:, ::1] 
     store(moment + 8, z)
 
 
-cdef inline double part(double w, double sign, four b, const float* offset) noexcept nogil:
-    """w + sign (w/r^2) r_ij . b, with b whose fourth number is 0."""
+cdef inline double coupling(double w, double sign, four b, const float* offset) noexcept nogil:
+    """n0 a_ij (sign -1) or n0 a_ji (1): w + sign (w/r^2) r_ij . b, b with 0 as fourth number."""
     cdef four r = widened(offset)
     return w + sign * lane(r, 3) * added(product(b, r))
 
@@ -96,8 +96,8 @@ def transposed(const int[::1] row, const int[::1] solid, const int[::1] other,
                 total = times(found[i, 0, 3], load(&found[i, 0, 0]))
                 for k in range(row[i], solid[i]):
                     j = other[k]
-                    yours = part(weight(inverse[k], radius), 1.0, load(&found[j, 1, 0]),
-                                 &offset[k, 0])
+                    yours = coupling(weight(inverse[k], radius), 1.0, load(&found[j, 1, 0]),
+                                     &offset[k, 0])
                     total = plus(total, -share * yours, load(&found[j, 0, 0]))
             for a in range(3):
                 out[i, a] = lane(total, a)

@@ -182,16 +182,21 @@ def _assemble(flow, graded, pull, dt):
     if graded is not None and getattr(flow.source, "INSIDE_ONLY", False):
         right *= 1.0 - graded
     if flow.case.scheme.projection == "start":
-        relief = flow.case.scheme.relief
         flow.domain.refresh(right)
         flow.compression = dt * near.largest_together(right, flow.domain.owned)
-        right += crowding.rate(n, flow.stencil, relief, dt, pace(flow.case)) / dt
+        right += _relief(flow, n, dt) / dt
     if flow.extrapolates:
         right += wall_pressure.flux(near, stencil, terms, pull)
     if graded is not None and flow.case.scheme.residue:
         towards_zero += _residue(flow)
     domain = flow.domain if flow.solver.BY_SLAB else None
     return equation.assemble(near, stencil, terms, rho, right, flow.unknowns, towards_zero, domain)
+
+
+def _relief(flow, number_density, dt):
+    """Rate at which crowded water is let go, (n,) [1/s]; see `mpslab.models.crowding`."""
+    share = flow.case.scheme.relief
+    return crowding.rate(number_density, flow.stencil, share, dt, pace(flow.case))
 
 
 def _residue(flow):

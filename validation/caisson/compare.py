@@ -2,11 +2,12 @@
 
 import numpy as np
 
-from mpslab.analysis import goda, reflection
+from mpslab.analysis import goda
 from mpslab.analysis.harmonics import HARMONICS, harmonics
 from mpslab.theory.dispersion import wave_numbers
 from validation import potential_flow
 from validation.comparison import Comparison
+from validation.wave_analysis import separate
 
 PERIODS = 4  # at the end of the run
 WAVES = 4.0  # periods of potential flow
@@ -43,10 +44,8 @@ class _Wall:
         start = case.time.end - PERIODS * period
         w = 2.0 * np.pi / period
         k = float(wave_numbers(w, depth, gravity))
-        levels = np.array([harmonics(*run.gauge(gauge.name), period, start, PERIODS)[1:]
-                           for gauge in case.gauge])  # fmt: skip
-        x = np.array([gauge.x for gauge in case.gauge])
-        self.height = reflection.of_harmonics(levels, x, period, depth, gravity).incident_height
+        names = [gauge.name for gauge in case.gauge]
+        self.height = separate(run, names, start, PERIODS).incident_height
         weight = run.density * gravity
         self.linear = weight * self.height * np.tanh(k * depth) / k
         forces = run.table("forces")

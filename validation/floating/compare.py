@@ -4,10 +4,11 @@ import numpy as np
 
 from validation.comparison import Comparison
 from validation.floating import radiation
+from validation.swing import first_swing
 
 LAST = 1.0  # seconds of a run on still water that means are taken over
 IMAGES = 12  # of a body in bed, walls and surface, that its added mass is summed over
-CREST = 0.02  # seconds about the crest of the heave that it is fitted over
+EXTREME = 0.02  # s before and after an extreme of the heave, over which it is fitted
 START = 2e-3  # seconds after a body is let go, from which on its speed is looked at
 
 
@@ -114,24 +115,11 @@ def _compare_heave(result, runs):
         time, height = bodies["time"], (bodies["cylinder z"] - run.depth) / lift
         outline, mass = radiation.cylinder(given.radius), given.density * np.pi * given.radius**2
         theory = radiation.heave(outline, run.depth, run.gravity, mass, run.density, time)
-        period = _crest(time, height) / _crest(time, theory)
+        seen, right = (first_swing(time, place, EXTREME) for place in (height, theory))
+        period = seen.crest_at / right.crest_at
         rows.append([name, period, height.min(), theory.min()])
         figure.line(run.label, time, height)
         result.measure("period", period)
     figure.dashed("linear theory", time, theory)
     columns = ["run", "period over linear theory", "first trough", "that of linear theory"]
     result.table("Heave of a half-immersed cylinder", columns, rows)
-
-
-def _crest(time, height):
-    """When the cylinder is highest after its first trough [s], by a parabola; NaN if it is not.
-
-    Unlike times of zero crossings it does not depend on the level, which the cylinder changes.
-    """
-    later = np.flatnonzero(time > time[np.argmin(height)])
-    if not len(later):
-        return np.nan
-    top = later[np.argmax(height[later])]
-    part = np.abs(time - time[top]) < CREST
-    a, b, _ = np.polyfit(time[part] - time[top], height[part], 2)
-    return time[top] - 0.5 * b / a

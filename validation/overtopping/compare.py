@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from mpslab.analysis import eurotop, reflection
-from mpslab.analysis.harmonics import harmonics
+from mpslab.analysis import eurotop
 from validation.comparison import Comparison
-from validation.wave_analysis import travel
+from validation.wave_analysis import separate, travel
 
 PERIODS, INCIDENT = 5, 3  # that the discharge and the incident wave are taken over
 SETTLE = 1.5  # periods after the soft start until the wave is steady where it has come
@@ -90,13 +89,9 @@ class _Overtopped:
     def _incident(self):
         """Height of the incident waves, twice the first harmonic [m]."""
         run, gauges = self.run, [g for g in self.run.case.gauge if g.name.startswith("G")]
-        x = np.array([gauge.x for gauge in gauges])
-        start = self.start + travel(run) - travel(run, x.min())
-        amplitudes = np.array([
-            harmonics(*run.gauge(gauge.name), self.period, start, INCIDENT)[1:] for gauge in gauges
-        ])  # fmt: skip
-        found = reflection.of_harmonics(amplitudes, x, self.period, run.depth, run.gravity)
-        return found.incident_height
+        start = self.start + travel(run) - travel(run, min(gauge.x for gauge in gauges))
+        names = [gauge.name for gauge in gauges]
+        return separate(run, names, start, INCIDENT).incident_height
 
     def _count(self):
         """Particles that the plane had counted by the last frame, and those that lacked there."""

@@ -2,11 +2,9 @@
 
 import numpy as np
 
-from mpslab.analysis import reflection
-from mpslab.analysis.harmonics import harmonics
 from mpslab.theory import waves
 from validation.comparison import Comparison
-from validation.wave_analysis import travel
+from validation.wave_analysis import separate, travel
 
 PERIODS = 4  # that harmonics are taken over
 SETTLE = 1.5  # periods after the soft start until the wave is steady where it has come
@@ -69,13 +67,8 @@ def _start(run, alone):
 
 def _separate(run, alone):
     """Incident and reflected waves."""
-    period, names = run.case.wavemaker.period, [gauge.name for gauge in run.case.gauge]
-    start = _start(run, alone)
-    amplitudes = np.array([
-        harmonics(*run.gauge(name), period, start, PERIODS)[1:] for name in names
-    ])  # fmt: skip
-    x = np.array([gauge.x for gauge in run.case.gauge])
-    return reflection.of_harmonics(amplitudes, x, period, run.depth, run.gravity)
+    names = [gauge.name for gauge in run.case.gauge]
+    return separate(run, names, _start(run, alone), PERIODS)
 
 
 def _draw_gauge(result, runs):

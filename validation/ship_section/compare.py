@@ -4,10 +4,12 @@ import numpy as np
 
 from validation.comparison import Comparison
 from validation.floating import radiation
+from validation.swing import first_swing
 
 HEAVE, ROLL = 1.17, 1.26  # s, natural periods of the experiment
 BREADTH, DRAFT, BILGE = 0.40, 0.20, 0.0512  # m
 MASS, CENTER = 78.87, 0.106  # kg/m, and the height of the centre of mass over the keel [m]
+EXTREME = 0.02  # s before and after an extreme, over which a parabola is fitted
 PANELS = 30  # on half of the section
 
 
@@ -32,18 +34,19 @@ def _compare_heave(result, runs):
         time, height = bodies["time"], bodies["section z"] - rest
         height = height / height[0]
         theory = radiation.heave(outline(), run.depth, run.gravity, MASS, run.density, time)
-        (period, trough, crest), right = _swing(time, height), _swing(time, theory)
-        rows.append([run.label, period, period / right[0], trough / right[1], crest / right[2]])
+        seen, right = (first_swing(time, place, EXTREME) for place in (height, theory))
+        rows.append([run.label, seen.crest_at, seen.crest_at / right.crest_at,
+                     seen.trough / right.trough, seen.crest / right.crest])  # fmt: skip
         figure.line(run.label, time, height)
     figure.dashed("linear theory", time, theory)
-    result.measure("heave_measured", period / HEAVE)
+    result.measure("heave_measured", seen.crest_at / HEAVE)
     result.measure("heave_period", rows[-1][2])
     result.measure("heave_trough", rows[-1][3])
     result.measure("heave_crest", rows[-1][4])
     columns = ["run", "first crest [s]", "over that of theory", "first trough over that of theory",
                "first crest over that of theory"]  # fmt: skip
     result.table("Free heave", columns, rows)
-    result.note(f"Linear theory: first crest after {right[0]:.3f} s, {HEAVE:g} s measured.")
+    result.note(f"Linear theory: first crest after {right.crest_at:.3f} s, {HEAVE:g} s measured.")
 
 
 def outline():
@@ -55,13 +58,6 @@ def outline():
     ends = np.unique(np.append(np.linspace(0.0, along[-1], PANELS + 1), along))
     points = np.interp(ends, along, x), np.interp(ends, along, z) - DRAFT
     return tuple(zip(*(p.tolist() for p in points), strict=True))
-
-
-def _swing(time, height):
-    """When the first crest after the start comes [s], height of the trough before it, and its."""
-    low = np.argmin(height)
-    high = low + np.argmax(height[low:])
-    return time[high], height[low], height[high]
 
 
 def _compare_roll(result, runs):

@@ -4,6 +4,9 @@ import numpy as np
 
 from validation.comparison import Comparison
 from validation.sphere_drop.theory import heave
+from validation.swing import first_swing
+
+EXTREME = 0.01  # s before and after an extreme, over which a parabola is fitted
 
 
 def compare(runs):
@@ -13,11 +16,12 @@ def compare(runs):
     spheres = [_Sphere(run) for run in sorted(runs.values(), key=lambda run: -run.spacing)]
     rows = []
     for sphere in spheres:
-        figure.line(sphere.run.label, sphere.time, sphere.found.place / sphere.lift)
-        seen, right = sphere.found, sphere.theory
-        rows.append([sphere.run.label, seen.crest_at, right.crest_at, seen.decrement,
-                     right.decrement, sphere.rest])  # fmt: skip
-    figure.dashed("linear theory", sphere.time, sphere.theory.place / sphere.lift)
+        figure.line(sphere.run.label, sphere.time, sphere.place / sphere.lift)
+        seen, right = sphere.seen, sphere.right
+        rows.append([sphere.run.label, seen.crest_at, right.crest_at,
+                     _decrement(sphere.place, seen), _decrement(sphere.expected, right),
+                     sphere.rest])  # fmt: skip
+    figure.dashed("linear theory", sphere.time, sphere.expected / sphere.lift)
     result.measure("period", rows[-1][1] / rows[-1][2])
     result.measure("decrement", rows[-1][3] / rows[-1][4])
     result.measure("rest", rows[-1][5])
@@ -37,28 +41,23 @@ class _Sphere:
         loose = bodies["time"] >= given.release
         self.time = bodies["time"][loose] - given.release
         self.lift = given.center[2] - run.depth
-        self.found = _Heave(self.time, bodies["sphere z"][loose] - run.depth)
-        place = heave(self.lift, given.radius, run.gravity, given.mass, run.density, self.time)
-        self.theory = _Heave(self.time, place)
-        self.rest = (self.found.middle - self.theory.middle) / run.spacing
+        self.place = bodies["sphere z"][loose] - run.depth
+        self.expected = heave(
+            self.lift, given.radius, run.gravity, given.mass, run.density, self.time
+        )
+        self.seen, self.right = (
+            first_swing(self.time, place, EXTREME) for place in (self.place, self.expected)
+        )
+        rests = [_rest(place, one) for place, one in
+                 ((self.place, self.seen), (self.expected, self.right))]  # fmt: skip
+        self.rest = (rests[0] - rests[1]) / run.spacing
 
 
-class _Heave:
-    """A motion (n,) [m] that goes down, up, and down again."""
-
-    def __init__(self, time, place):
-        self.place = place
-        low = int(np.argmin(place))
-        _, trough = _peak(time, -place, low)
-        self.crest_at, crest = _peak(time, place, low + int(np.argmax(place[low:])))
-        trough = -trough
-        self.decrement = np.log((place[0] - trough) / (crest - trough))
-        self.middle = 0.5 * (trough + 0.5 * (place[0] + crest))
+def _decrement(place, swing):
+    """log of the height of the way down over that of the way up."""
+    return float(np.log((place[0] - swing.trough) / (swing.crest - swing.trough)))
 
 
-def _peak(time, place, row):
-    """Time [s] and height [m] of the top of the parabola through five rows about one."""
-    rows = slice(max(row - 2, 0), row + 3)
-    bend = np.polyfit(time[rows] - time[row], place[rows], 2)
-    at = -0.5 * bend[1] / bend[0]
-    return time[row] + at, float(np.polyval(bend, at))
+def _rest(place, swing):
+    """Half-way between the trough and the mean of the two crests [m]."""
+    return 0.5 * (swing.trough + 0.5 * (place[0] + swing.crest))
