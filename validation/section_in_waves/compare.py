@@ -24,7 +24,8 @@ def compare(runs):
         if name.startswith("empty"):
             continue
         seen, right = _Seen(run, runs[f"empty-{name}"]), _measured(run)
-        period, heave = run.case.wavemaker.period, _heave(run)
+        period = run.case.wavemaker.period
+        heave = heave_force(period, run.depth, run.gravity)
         rows.append([name, 1e3 * run.spacing, 1e3 * seen.amplitude, seen.sway, right.sway,
                      seen.heave, right.heave, heave, seen.sway_leads, right.sway_leads,
                      seen.heave_leads, right.heave_leads])  # fmt: skip
@@ -82,19 +83,14 @@ def _measured(run):
     )  # fmt: skip
 
 
-def _heave(run):
-    """Heave force over rho g B a in linear theory.
+@cache
+def heave_force(period, depth, gravity):
+    """Heave force of waves over rho g B a in linear theory.
 
     A body gets the force X of waves of amplitude a that, heaving, makes waves: X^2 = 2 rho g c_g b
     a^2, b being its damping (Haskind 1957; Newman 1977, section 6.18).
     """
-    period = run.case.wavemaker.period
-    return _haskind(2.0 * np.pi / period, run.depth, run.gravity,
-                    group_celerity(period, run.depth, run.gravity))  # fmt: skip
-
-
-@cache
-def _haskind(w, depth, gravity, speed):
+    w, speed = 2.0 * np.pi / period, group_celerity(period, depth, gravity)
     frequency, _, damping = radiation.coefficients(outline(), depth, gravity)
     damping = w * np.interp(w, frequency, damping)  # of unit density
     return float(np.sqrt(2.0 * gravity * speed * damping) / (gravity * BREADTH))
