@@ -1,6 +1,6 @@
-"""Linear theory of a body afloat that is let go: heave after a small lift, in 2-D.
+"""Linear theory of a body afloat: heave after a small lift, and the force of waves, in 2-D.
 
-The waves that a heaving body makes are a potential with K phi = d phi/dz on the surface, K = w^2/g
+The waves that a moving body makes are a potential with K phi = d phi/dz on the surface, K = w^2/g
 (Ursell 1949 gave it in series for deep water); here it is found with panels for any depth. From
 added mass and damping over the frequency follows the motion in time (Maskell & Ursell 1970), by the
 transform of Cummins (1962).
@@ -9,6 +9,8 @@ transform of Cummins (1962).
 from functools import cache
 
 import numpy as np
+
+from mpslab.theory.waves import group_celerity
 
 BODY, BED = 24, 50  # panels on half of the body and the bed
 OUT = 48  # on the two uprights each, which are the shorter the nearer they are to the surface
@@ -24,7 +26,7 @@ def cylinder(radius):
 
 
 @cache
-def coefficients(outline, depth, gravity):
+def coefficients(outline, depth, gravity, mode="heave"):
     """Frequencies w [rad/s], added mass and damping over w, of unit density, (n,) each.
 
     Parameters
@@ -34,21 +36,26 @@ def coefficients(outline, depth, gravity):
         surface, which is at z = 0: the middles of its panels are not too far apart.
     depth : float [m]
     gravity : float [m/s2]
+    mode : str
+        The motion, "heave" or "sway". What sways makes the opposite on its other side, so that the
+        potential is zero below its middle, where it has no slope across when it heaves.
     """
     ends, kind = _panels(outline, depth)
     single, double = _influence(ends)
     step = np.diff(ends, axis=0)
     length = np.hypot(*step.T)
-    up = step[:, 0] / length  # outward normal's z, the outline run through clockwise
-    body = kind == "body"
+    # The outward normal, the outline run through clockwise.
+    push = (step[:, 0] if mode == "heave" else -step[:, 1]) / length
+    body, unknown_slope = kind == "body", (kind == "middle") & (mode == "sway")
     found = []
     for w in np.sqrt(gravity / outline[-1][0]) * np.linspace(LOWEST, HIGHEST, FREQUENCIES):
         wave = _wave_number(w, depth, gravity)
         slope = np.zeros(len(kind), complex)  # d phi/dn over phi
         slope[kind == "surface"] = w * w / gravity
         slope[kind == "out"] = 1j * wave
-        phi = np.linalg.solve(double + single * slope, -single @ np.where(body, up, 0.0))
-        both = 2.0 * np.sum((phi * up * length)[body])
+        matrix = np.where(unknown_slope, single, double + single * slope)
+        phi = np.linalg.solve(matrix, -single @ np.where(body, push, 0.0))
+        both = 2.0 * np.sum((phi * push * length)[body])
         found.append((w, both.real, both.imag))
     return np.array(found).T
 
@@ -74,6 +81,25 @@ def heave(outline, depth, gravity, mass, water, times):
     return 1.0 - spring * 2.0 / np.pi * np.trapezoid(share, fine, axis=1)
 
 
+@cache
+def wave_force(outline, depth, gravity, period, mode):
+    """Force of waves on a body that is held, over rho g times its breadth and their amplitude.
+
+    It gets the force X of waves of amplitude a that, moving itself, makes waves: X^2 = 2 rho g c_g
+    b a^2, b being its damping in this mode (Haskind 1957; Newman 1977, section 6.18).
+
+    Parameters
+    ----------
+    outline, depth, gravity, mode
+        As of `coefficients`.
+    period : float [s]
+    """
+    w, speed = 2.0 * np.pi / period, group_celerity(period, depth, gravity)
+    frequency, _, damping = coefficients(outline, depth, gravity, mode)
+    damping = w * np.interp(w, frequency, damping)
+    return float(np.sqrt(2.0 * gravity * speed * damping) / (2.0 * gravity * outline[-1][0]))
+
+
 def _wave_number(w, depth, gravity):
     k = w * w / gravity
     for _ in range(200):
@@ -93,7 +119,7 @@ def _panels(outline, depth):
     bed = np.column_stack([np.linspace(far, 0.0, BED + 1), np.full(BED + 1, -depth)])
     up = np.column_stack([np.zeros(OUT + 1), np.linspace(-depth, keel, OUT + 1)])
     ends = np.vstack([body[:-1], surface[:-1], out[:-1], bed[:-1], up])
-    kinds = np.repeat(["body", "surface", "out", "wall", "wall"],
+    kinds = np.repeat(["body", "surface", "out", "bed", "middle"],
                       [len(body) - 1, count, OUT, BED, OUT])  # fmt: skip
     return ends, kinds
 

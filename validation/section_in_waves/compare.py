@@ -1,17 +1,16 @@
 """Force of waves on a ship section that is held, against an experiment and linear theory."""
 
-from functools import cache
 from pathlib import Path
 
 import numpy as np
 
 from mpslab.analysis.harmonics import harmonics
-from mpslab.theory.waves import group_celerity
 from validation.comparison import Comparison
 from validation.data import read_columns
 from validation.floating import radiation
 from validation.ship_section.compare import BREADTH, DRAFT, outline
 
+MODES = "sway", "heave"
 PERIODS = 4  # at the end of a run, that harmonics are taken over
 MODEL = 0.586  # m, how long the model was
 MEASURED = Path(__file__).parent / "data" / "sundsdal2025_fixed_forces.csv"
@@ -24,21 +23,21 @@ def compare(runs):
         if name.startswith("empty"):
             continue
         seen, right = _Seen(run, runs[f"empty-{name}"]), _measured(run)
-        period = run.case.wavemaker.period
-        heave = heave_force(period, run.depth, run.gravity)
-        rows.append([name, 1e3 * run.spacing, 1e3 * seen.amplitude, seen.sway, right.sway,
-                     seen.heave, right.heave, heave, seen.sway_leads, right.sway_leads,
-                     seen.heave_leads, right.heave_leads])  # fmt: skip
-        key = name.replace(".", "")
-        result.measure(f"{key}_sway", seen.sway / right.sway)
-        result.measure(f"{key}_heave", seen.heave / right.heave)
-        result.measure(f"{key}_theory", seen.heave / heave)
+        period, key = run.case.wavemaker.period, name.replace(".", "")
+        row = [name, 1e3 * run.spacing, 1e3 * seen.amplitude]
+        for mode in MODES:
+            theory = radiation.wave_force(outline(), run.depth, run.gravity, period, mode)
+            result.measure(f"{key}_{mode}", seen.force[mode] / right.force[mode])
+            result.measure(f"{key}_{mode}_theory", seen.force[mode] / theory)
+            row += [seen.force[mode], right.force[mode], theory, seen.leads[mode],
+                    right.leads[mode]]  # fmt: skip
+        rows.append(row)
         figure = result.figure(f"Force in waves of {period:.3g} s", "time [s]", "force [N/m]")
         figure.line("sway", seen.time, seen.push[0])
         figure.line("heave", seen.time, seen.push[1])
-    columns = ["run", "spacing [mm]", "amplitude at the axis [mm]", "sway", "measured", "heave",
-               "measured", "linear theory", "sway leads [deg]", "measured", "heave leads [deg]",
-               "measured"]  # fmt: skip
+    columns = ["run", "spacing [mm]", "amplitude at the axis [mm]"]
+    for mode in MODES:
+        columns += [mode, "measured", "linear theory", f"{mode} leads [deg]", "measured"]
     result.table("First harmonics of the force over rho g B a", columns, rows)
     return result
 
@@ -46,9 +45,8 @@ def compare(runs):
 class _Force:
     """First harmonics over rho g B a, and by how much they lead the crest at the axis [deg]."""
 
-    def __init__(self, sway, heave, sway_leads, heave_leads):
-        self.sway, self.heave = sway, heave
-        self.sway_leads, self.heave_leads = sway_leads, heave_leads
+    def __init__(self, force, leads):
+        self.force, self.leads = (dict(zip(MODES, what, strict=True)) for what in (force, leads))
 
 
 class _Seen(_Force):
@@ -57,14 +55,12 @@ class _Seen(_Force):
     def __init__(self, run, empty):
         period, end = run.case.wavemaker.period, run.case.time.end
         forces, unit = run.table("forces"), run.density * run.gravity * BREADTH
-        still = unit * DRAFT
         self.time = forces["time"]
-        self.push = forces["section fx"], forces["section fz"] - still
+        self.push = forces["section fx"], forces["section fz"] - unit * DRAFT
         wave = _first(*empty.gauge("axis"), period, end)
-        sway, heave = (_first(self.time, push, period, end) / wave for push in self.push)
+        parts = [_first(self.time, push, period, end) / wave for push in self.push]
         self.amplitude = abs(wave)
-        super().__init__(abs(sway) / unit, abs(heave) / unit,
-                         np.degrees(np.angle(sway)), np.degrees(np.angle(heave)))  # fmt: skip
+        super().__init__(np.abs(parts) / unit, np.degrees(np.angle(parts)))
 
 
 def _first(time, signal, period, end):
@@ -77,20 +73,6 @@ def _measured(run):
     table = read_columns(MEASURED)
     row = int(np.argmin(np.abs(table["T_s"] - run.case.wavemaker.period)))
     unit = run.density * run.gravity * BREADTH * MODEL * table["a_inc_m"][row]
-    return _Force(
-        table["Fsway_amp_N"][row] / unit, table["Fheave_amp_N"][row] / unit,
-        table["Fsway_phase_lead_deg"][row], table["Fheave_phase_lead_deg"][row],
-    )  # fmt: skip
-
-
-@cache
-def heave_force(period, depth, gravity):
-    """Heave force of waves over rho g B a in linear theory.
-
-    A body gets the force X of waves of amplitude a that, heaving, makes waves: X^2 = 2 rho g c_g b
-    a^2, b being its damping (Haskind 1957; Newman 1977, section 6.18).
-    """
-    w, speed = 2.0 * np.pi / period, group_celerity(period, depth, gravity)
-    frequency, _, damping = radiation.coefficients(outline(), depth, gravity)
-    damping = w * np.interp(w, frequency, damping)  # of unit density
-    return float(np.sqrt(2.0 * gravity * speed * damping) / (gravity * BREADTH))
+    names = [f"F{mode}" for mode in MODES]
+    return _Force([table[f"{name}_amp_N"][row] / unit for name in names],
+                  [table[f"{name}_phase_lead_deg"][row] for name in names])  # fmt: skip
