@@ -39,14 +39,14 @@ def travel(run, to=None):
     return float(np.sum(np.diff(x)[wet] / speed))
 
 
-def separate(run, names, start, periods):
+def separate(run, gauges, start, periods):
     """Incident and reflected waves of a run's wavemaker at some gauges.
 
     Parameters
     ----------
     run : validation.run.Run
-    names : list of str
-        Names of the gauges.
+    gauges : list
+        Of those of its case.
     start : float [s]
     periods : int
         How many, from the start on, the harmonics are taken over.
@@ -56,12 +56,16 @@ def separate(run, names, start, periods):
     mpslab.analysis.reflection.Reflection
     """
     period = run.case.wavemaker.period
-    gauges = [gauge for gauge in run.case.gauge if gauge.name in names]
     amplitudes = np.array([
         harmonics(*run.gauge(gauge.name), period, start, periods)[1:] for gauge in gauges
     ])  # fmt: skip
     x = np.array([gauge.x for gauge in gauges])
     return reflection.of_harmonics(amplitudes, x, period, run.depth, run.gravity)
+
+
+def last_harmonic(time, signal, period, end, periods):
+    """First harmonic of the last periods before a time, with exp(i w t)."""
+    return harmonics(time, signal, period, end - periods * period, periods)[1]
 
 
 def modes(run, number):

@@ -25,31 +25,30 @@ def shift(const double[:, ::1] sums, const unsigned char[::1] moves, double fact
             position[i, 2] -= scale * z
 
 
+cdef inline double square(const double* a, const double* b, double width) noexcept nogil:
+    """Squared distance of two places, of the nearest image across the tank [m2]."""
+    cdef double x = a[0] - b[0], y = wrap(a[1] - b[1], width), z = a[2] - b[2]
+    return x * x + y * y + z * z
+
+
 def moved(const double[:, ::1] position, const double[:, ::1] before, double width,
           float[::1] out):
     """How far each particle has gone [m]; `before` is (n, 4)."""
-    cdef double dx, dy, dz
     cdef Py_ssize_t i
     with nogil:
         for i in range(out.shape[0]):
-            dx = position[i, 0] - before[i, 0]
-            dy = wrap(position[i, 1] - before[i, 1], width)
-            dz = position[i, 2] - before[i, 2]
-            out[i] = sqrt(dx * dx + dy * dy + dz * dz)
+            out[i] = sqrt(square(&position[i, 0], &before[i, 0], width))
 
 
 def gone(const double[:, ::1] position, const double[:, ::1] before, double width,
          double distance):
     """Whether a particle has gone farther than a distance [m] from `before`, (n, 3)."""
-    cdef double dx, dy, dz, limit = distance * distance
+    cdef double limit = distance * distance
     cdef Py_ssize_t i
     cdef bint found = False
     with nogil:
         for i in range(position.shape[0]):
-            dx = position[i, 0] - before[i, 0]
-            dy = wrap(position[i, 1] - before[i, 1], width)
-            dz = position[i, 2] - before[i, 2]
-            if dx * dx + dy * dy + dz * dz > limit:
+            if square(&position[i, 0], &before[i, 0], width) > limit:
                 found = True
                 break
     return found
@@ -62,19 +61,15 @@ def closer(const int[::1] row, const int[::1] other, const double[:, ::1] positi
     position : (n, 3) [m]
     close_row : (n + 1,) out, close_other : (m + 1,) out
     """
-    cdef double dx, dy, dz, limit = distance * distance
-    cdef Py_ssize_t i, k, j
+    cdef double limit = distance * distance
+    cdef Py_ssize_t i, k
     cdef int found = 0
     with nogil:
         for i in range(close_row.shape[0] - 1):
             close_row[i] = found
             for k in range(row[i], row[i + 1]):
-                j = other[k]
-                dx = position[j, 0] - position[i, 0]
-                dy = wrap(position[j, 1] - position[i, 1], width)
-                dz = position[j, 2] - position[i, 2]
-                close_other[found] = j
-                found += dx * dx + dy * dy + dz * dz < limit
+                close_other[found] = other[k]
+                found += square(&position[other[k], 0], &position[i, 0], width) < limit
         close_row[close_row.shape[0] - 1] = found
     return found
 
@@ -87,7 +82,7 @@ def reached(const int[::1] row, const int[::1] other, const float[::1] inverse,
     reach : (n,) [m]
     close_row : (n + 1,) out, close_other : (m + 8,) out
 
-    With a millionth of slack, because all this is rounded.
+    With a hundred-thousandth of slack, because all this is rounded.
     """
     cdef Py_ssize_t i, k, m, pairs = other.shape[0]
     cdef int found = 0, near

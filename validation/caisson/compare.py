@@ -44,8 +44,7 @@ class _Wall:
         start = case.time.end - PERIODS * period
         w = 2.0 * np.pi / period
         k = float(wave_numbers(w, depth, gravity))
-        names = [gauge.name for gauge in case.gauge]
-        self.height = separate(run, names, start, PERIODS).incident_height
+        self.height = separate(run, case.gauge, start, PERIODS).incident_height
         weight = run.density * gravity
         self.linear = weight * self.height * np.tanh(k * depth) / k
         forces = run.table("forces")

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from mpslab.analysis.harmonics import harmonics
 from mpslab.theory.dispersion import wave_numbers
 from validation.comparison import Comparison
 from validation.cylinder_in_waves import theory
+from validation.wave_analysis import last_harmonic
 
 PERIODS = 2  # at the end of the run
 
@@ -43,9 +43,9 @@ class _Pile:
         self.time, self.force = forces["time"], forces["pile fx"]
         end = min(run.case.time.end, empty.case.time.end)
         clear = empty.table("gauges")
-        wave = _first(clear["time"], clear["axis"], self.period, end)
-        push = _first(self.time, self.force, self.period, end)
-        front = _first(gauges["time"], gauges["front"], self.period, end)
+        wave = last_harmonic(clear["time"], clear["axis"], self.period, end, PERIODS)
+        push = last_harmonic(self.time, self.force, self.period, end, PERIODS)
+        front = last_harmonic(gauges["time"], gauges["front"], self.period, end, PERIODS)
         self.wave = abs(wave)
         self.unit = run.density * run.gravity * self.wave * depth * solid.radius
         self.size = abs(push / wave) / (run.density * run.gravity) / self.theory[0]
@@ -54,8 +54,3 @@ class _Pile:
         (place,) = (gauge.x for gauge in run.case.gauge if gauge.name == "front")
         high = theory.level(k, solid.radius, place - solid.center[0])
         self.crest = abs(front / wave) / high
-
-
-def _first(time, signal, period, end):
-    """First harmonic of the last periods before a time, with exp(i w t)."""
-    return harmonics(time, signal, period, end - PERIODS * period, PERIODS)[1]

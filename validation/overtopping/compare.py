@@ -90,8 +90,7 @@ class _Overtopped:
         """Height of the incident waves, twice the first harmonic [m]."""
         run, gauges = self.run, [g for g in self.run.case.gauge if g.name.startswith("G")]
         start = self.start + travel(run) - travel(run, min(gauge.x for gauge in gauges))
-        names = [gauge.name for gauge in gauges]
-        return separate(run, names, start, INCIDENT).incident_height
+        return separate(run, gauges, start, INCIDENT).incident_height
 
     def _count(self):
         """Particles that the plane had counted by the last frame, and those that lacked there."""

@@ -67,8 +67,7 @@ def _start(run, alone):
 
 def _separate(run, alone):
     """Incident and reflected waves."""
-    names = [gauge.name for gauge in run.case.gauge]
-    return separate(run, names, _start(run, alone), PERIODS)
+    return separate(run, run.case.gauge, _start(run, alone), PERIODS)
 
 
 def _draw_gauge(result, runs):

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab.analysis.harmonics import harmonics
 from validation.comparison import Comparison
 from validation.data import read_columns
 from validation.floating import radiation
 from validation.ship_section.compare import BREADTH, DRAFT, outline
+from validation.wave_analysis import last_harmonic
 
 MODES = "sway", "heave"
 PERIODS = 4  # at the end of a run, that harmonics are taken over
@@ -57,15 +57,11 @@ class _Seen(_Force):
         forces, unit = run.table("forces"), run.density * run.gravity * BREADTH
         self.time = forces["time"]
         self.push = forces["section fx"], forces["section fz"] - unit * DRAFT
-        wave = _first(*empty.gauge("axis"), period, end)
-        parts = [_first(self.time, push, period, end) / wave for push in self.push]
+        wave = last_harmonic(*empty.gauge("axis"), period, end, PERIODS)
+        parts = [last_harmonic(self.time, push, period, end, PERIODS) / wave
+                 for push in self.push]  # fmt: skip
         self.amplitude = abs(wave)
         super().__init__(np.abs(parts) / unit, np.degrees(np.angle(parts)))
-
-
-def _first(time, signal, period, end):
-    """First harmonic of the last periods before a time, with exp(i w t)."""
-    return harmonics(time, signal, period, end - PERIODS * period, PERIODS)[1]
 
 
 def _measured(run):
