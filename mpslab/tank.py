@@ -144,6 +144,8 @@ def _draw(case, path):
     """The pictures of --check: the motion of the wavemaker, and the tank with its solids."""
     from mpslab.analysis import paddle_picture, tank_picture
 
+    if not path.parent.is_dir():
+        raise ValueError(f"--draw {path}: must be in a folder that exists")
     if case.solid:
         tank_picture.draw(case, path.with_stem(f"{path.stem}-tank"))
     if case.wavemaker.type != "none" or not case.solid:

@@ -65,7 +65,7 @@ VALUES = [
     ("scheme.recipe", "papr", "scheme.recipe = 'papr': must be one of standard, paper; did you"),
     ("scheme.recipe", ["paper"], "scheme.recipe = ['paper']: must be one of standard, paper"),
     ("wavemaker.type", "cnoid", "wavemaker.type = 'cnoid': must be one of none, bichromatic, cnoi"),
-    ("wavemaker.height", -0.01, "wavemaker.height = -0.01: must be a number >= 0 [m]"),
+    ("wavemaker.height", -0.01, "wavemaker.height = -0.01: must be a number from 0 to 1000 [m]"),
     ("initial.mode", 0, "initial.mode = 0: must be a whole number >= 1"),
     ("time.end", None, "time.end = None: must be a number > 0 [s]"),
     ("time.growth", 1, "time.growth = 1: must be a number > 1 and <= 10"),

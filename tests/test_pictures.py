@@ -294,7 +294,7 @@ def test_a_peak_of_several_readings_stays_on_the_scale(folder, case):
 
 
 def test_the_level_of_water_in_boxes_counts_from_the_bed(folder, case):
-    case["water"] = [{"from": [0.0, 0.0, 0.0], "to": [0.1, 0.0, 0.04]}]
+    case["water"] = [{"from": [0.0, 0.0, 0.0], "to": [0.1, 0.0, 0.03]}]
     table = open_run(folder.path).gauges.copy()
     figure = pictures.draw_gauges(table, case)
     axes = panels(figure)["g1, x = 0.2 m"]

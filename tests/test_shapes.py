@@ -20,6 +20,7 @@ D0, WEIGHT = 0.002, 1000.0 * 9.81
 RAMP = [[0.02, 0.0], [0.04, 0.014], [0.046, 0.014], [0.058, 0.0]]
 BOX = [[0.02, 0.006], [0.034, 0.006], [0.034, 0.02], [0.02, 0.02]]
 TRIANGLE = [[0.0, 0.0], [0.3, 0.05], [0.15, 0.3]]
+TRIANGLE_WITHIN = 0.17721052883069904  # diameter of the circle in it, by Heron's formula
 ELL = [[0.0, 0.0], [0.3, 0.0], [0.3, 0.1], [0.1, 0.1], [0.1, 0.3], [0.0, 0.3]]
 OUTLINES = {
     "triangle": Polygon(TRIANGLE),
@@ -86,7 +87,7 @@ def test_ring_of_a_box_in_whole_spacings_is_the_lattice():
 
 
 @pytest.mark.parametrize(("corners", "thinnest"), [
-    (ELL, 0.1), ([[0, 0], [4, 0], [4, 1], [0, 1]], 1.0), (TRIANGLE, np.inf),
+    (ELL, 0.1), ([[0, 0], [4, 0], [4, 1], [0, 1]], 1.0), (TRIANGLE, TRIANGLE_WITHIN),
 ])  # fmt: skip
 def test_thinnest_is_between_sides_that_face_each_other(corners, thinnest):
     assert Polygon(corners).thinnest == pytest.approx(thinnest)

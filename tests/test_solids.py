@@ -87,7 +87,7 @@ def test_solids_have_names_by_default_and_keep_theirs():
 @pytest.mark.parametrize(
     ("name", "part"),
     [
-        ("tank", "must be different from those of the tank, water, tank, piston, end_wall"),
+        ("tank", "must be different from those of the tank, water, tank, bed, piston, end_wall"),
         ("obstacle-1", "gate.0.name = 'obstacle-1': must be different from obstacle.0.name"),
         ("a,b", "gate.0.name = 'a,b': must be text of one line and not empty, without any of"),
         ("", "gate.0.name = '': must be text of one line and not empty"),

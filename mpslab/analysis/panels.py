@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 
 from mpslab.analysis import sheet
 from mpslab.analysis.headings import heading
+from mpslab.analysis.still import still_level
 from mpslab.core.kinds import DUMMY, GATE, GATE_DUMMY, PISTON, PISTON_DUMMY, WALL
 
 # Colours of solids: that of their faces, and that of the particles behind them.
@@ -101,7 +102,7 @@ def _expected_speed(case, fast):
         right = max((box["to"][0] for box in boxes), default=case["tank"]["length"])
         left = min((box["from"][0] for box in boxes), default=0.0)
         return 0.5 * abs(initial["rate"]) * (right - left) or fast
-    if boxes:
+    if boxes and still_level(case) is None:
         return COLLAPSE * fast
     if initial["type"] == "standing_wave":
         amplitude = initial["amplitude"]
@@ -262,11 +263,15 @@ def _draw_discs(ax, piece, mask, size, **colour):
 
 def draw_still_water(ax, case):
     """The still-water line up to the shore, where the tank was filled to its still depth."""
-    if case.get("water"):
+    depth = still_level(case)
+    if depth is None:
         return
-    depth = case["tank"]["depth"]
     bed = np.array(case["tank"]["bed"] or [[0.0, 0.0], [case["tank"]["length"], 0.0]])
     along = np.linspace(0.0, case["tank"]["length"], 1000)
     wet = np.interp(along, *bed.T) < depth
+    boxes = case.get("water", ())
+    if boxes:
+        ends = [(box["from"][0], box["to"][0]) for box in boxes]
+        wet &= np.any([(low <= along) & (along <= high) for low, high in ends], axis=0)
     level = np.where(wet, depth, np.nan)
     ax.plot(along, level, **STILL_WATER)

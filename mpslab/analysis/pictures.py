@@ -7,6 +7,7 @@ from mpslab.analysis import sheet
 from mpslab.analysis.headings import heading
 from mpslab.analysis.results import open_run
 from mpslab.analysis.snapshots import draw_breaker, draw_tank
+from mpslab.analysis.still import still_level
 
 # Okabe and Ito's colours, which the colour-blind can tell apart.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
@@ -162,7 +163,7 @@ def _place(instrument, case, axes):
 def draw_gauges(gauges, case):
     """Surface elevation above still water against time, one panel for each gauge.
 
-    If the case lays out boxes of water, the level above z = 0 instead.
+    If the case lays out boxes of water that do not stand at one level, the level above z = 0.
 
     Parameters
     ----------
@@ -177,9 +178,9 @@ def draw_gauges(gauges, case):
     """
     time, *names = gauges.dtype.names
     places = {gauge["name"]: _place(gauge, case, "xy") for gauge in case.get("gauge", ())}
-    boxes = bool(case.get("water"))
-    zero, what = (0.0, "level") if boxes else (case["tank"]["depth"], "elevation")
-    title = "Water level above z = 0" if boxes else "Surface elevation above still water"
+    still = still_level(case)
+    zero, what = (0.0, "level") if still is None else (still, "elevation")
+    title = "Water level above z = 0" if still is None else "Surface elevation above still water"
     figure, axes = _stack(len(names), case, f"{title} at the gauges; no line where it is dry", 1.4)
     for ax, name in zip(axes, names, strict=True):
         ax.axhline(0.0, color="0.6", linewidth=0.8)

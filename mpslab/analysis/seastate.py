@@ -15,6 +15,7 @@ from mpslab.analysis import (
     windows,
 )
 from mpslab.analysis.harmonics import HARMONICS, harmonics
+from mpslab.analysis.still import still_level
 from mpslab.core import bed
 from mpslab.run.preflight import REGULAR
 
@@ -219,7 +220,7 @@ class _Known:
             raise ValueError(f"--period {period:g}: must be above 0 s")
         maker = self.case["wavemaker"]
         self.gravity = self.case["fluid"]["gravity"]
-        self.level = 0.0 if self.case.get("water") else self.case["tank"]["depth"]
+        self.level = still_level(self.case) or 0.0
         self.names = self.series.dtype.names[1:]
         self.x = np.array([instruments[name]["x"] for name in self.names], float)
         self.depth = self.level - self._bed(self.x)

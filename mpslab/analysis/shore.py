@@ -260,7 +260,8 @@ def pushed(name, table, before, window, still, width, expected):
     Pushed
     """
     time, force = table["time"], table[f"{name} fx"]
-    calm = (time > 0.5 * before) & (time <= before)
+    # Where the piston starts without fading in, the force grows long before the wave is there.
+    calm = (time > 0.25 * before) & (time <= 0.5 * before)
     still = float(np.mean(force[calm])) if np.count_nonzero(calm) >= 16 else still
     force = (force - still) / width
     peaks = _peaks(time, force, window, "force")

@@ -3,7 +3,6 @@
 from dataclasses import fields, replace
 from itertools import pairwise
 from math import ceil
-from pathlib import Path
 
 import numpy as np
 
@@ -11,7 +10,9 @@ from mpslab import instruments
 from mpslab.cases import bodies, contents
 from mpslab.cases.contents import ROUNDING
 from mpslab.core import plugins
+from mpslab.core.files import is_file
 from mpslab.core.keys import CaseError, require, require_choice, toml_name
+from mpslab.core.kinds import FLUID
 from mpslab.core.parameters import Case
 from mpslab.forcings import frame, sponge
 from mpslab.solids import obstacles
@@ -32,6 +33,8 @@ WAVES = (
     "linear", "second_order", "cnoidal", "solitary", "stream_function", "irregular", "focused",
     "bichromatic",
 )  # fmt: skip
+
+SEAS, LATEST = ("irregular", "focused", "bichromatic"), 1e4  # s, until which they may fade in
 
 # Largest radius [spacings] with which walls that are solved for hold the water: with 2.3 the
 # hydrostatic pressure of 20 layers is 0.97 of what it should be in 2-D, 0.95 in 3-D, with 3.1 it is
@@ -192,7 +195,11 @@ def _wider(case, count):
 
 def _check_count(case):
     """Walls count as well: they may be much higher than the water."""
-    count = census(case).sum()
+    found = census(case)
+    count = found.sum()
+    key = "solid" if case.solid else "tank.bed"
+    value = [given.name for given in case.solid] or case.tank.bed
+    require(found[FLUID] >= 0.5, key, value, "such that there is room for water: here is none")
     if count <= MOST_PARTICLES:
         return
     top = max(case.tank.depth, max(z for _, z in case.tank.bed))
@@ -234,8 +241,11 @@ def _check_motion(case):
     if maker.type == "file" or (
         maker.type in ("irregular", "focused") and maker.spectrum == "file"
     ):
-        exists = bool(maker.file) and Path(maker.file).is_file()
+        exists = is_file(maker.file)
         require(exists, "wavemaker.file", maker.file, "a CSV file that exists")
+    soon = maker.start <= LATEST or maker.type not in SEAS
+    rule = f"<= {LATEST:g} s for wavemaker.type = {maker.type!r}, whose motion is a table"
+    require(soon, "wavemaker.start", maker.start, rule)
     inside = maker.type != "focused" or 0.0 < maker.place <= tank.length
     rule = f"> 0 and <= tank.length = {tank.length:g} m, where the wave has its focus"
     require(inside, "wavemaker.place", maker.place, rule)

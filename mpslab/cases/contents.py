@@ -15,7 +15,7 @@ from mpslab.solids.census import columns_between
 ROUNDING = 1e-9
 
 # Names that no obstacle or gate may have.
-RESERVED = ("water", "tank", "piston", "end_wall")
+RESERVED = ("water", "tank", "bed", "piston", "end_wall")
 
 # A disc that is this many spacings across holds the centre of a particle wherever it lies.
 LEAST_DISC = 2

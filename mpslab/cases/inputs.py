@@ -9,7 +9,7 @@ import json
 from dataclasses import asdict, dataclass, field, fields, replace
 from pathlib import Path
 
-from mpslab.core.files import replacing
+from mpslab.core.files import is_file, replacing
 from mpslab.core.keys import toml_name
 from mpslab.core.parameters import LISTS, TABLES
 
@@ -53,7 +53,7 @@ def of(case):
     """The input files of a case that are there, a tuple of `Input`."""
     found = []
     for key, path, copy in _named(case):
-        if path and Path(path).is_file():
+        if is_file(path):
             content = Path(path).read_bytes()
             found.append(Input(key, copy, path, _checksum(content), content))
     return tuple(found)

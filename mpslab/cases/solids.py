@@ -6,15 +6,18 @@ import numpy as np
 
 from mpslab.core.keys import require, shown
 from mpslab.core.lattice import effective_length, rows_across
-from mpslab.solids import obstacles, shaped, surfaces
+from mpslab.core.motion import displacement
+from mpslab.solids import gates, obstacles, shaped, surfaces
 
 MOST_POINTS = 1000
 ROUND_OFF = 1e-9  # of a length
 DOUBTFUL = 0.05  # share of the space around a mesh that may be neither inside nor outside
 FLAT = ("polygon", "cylinder", "box")  # shapes for a 2-D tank
 TURNED = ("box", "mesh")
-# The key that says where a solid is, and the one that says how thick it is.
-PLACE = {"polygon": "points", "mesh": "file"}
+LARGEST = 1.0  # sizes of the tank, that a solid may reach beyond it
+BEYOND = 1.0  # spacings that a motion may lead beyond the walls and the bed
+MOMENTS = 200  # of a motion, that are looked at
+# The key that says how thick a solid is.
 THICKNESS = {"polygon": "points", "cylinder": "radius", "sphere": "radius", "box": "size",
              "mesh": "scale"}  # fmt: skip
 
@@ -27,9 +30,12 @@ def check_solids(case):
         _check_motion(where, given, number)
     for number, (given, shape) in enumerate(zip(case.solid, shaped.shapes(case), strict=True)):
         _check_place(case, f"solid.{number}", given, shape)
+        _check_size(case.tank, f"solid.{number}", given, shape)
+        _check_gates(case, f"solid.{number}", given, shape)
         if given.shape == "mesh":
             _check_mesh(f"solid.{number}", given, shape)
         _check_thickness(case, f"solid.{number}", given, shape)
+        _check_path(case, f"solid.{number}", given, number)
 
 
 def _check_shape(case, where, given):
@@ -115,7 +121,7 @@ def _check_motion(where, given, number):
 
 def _check_place(case, where, given, shape):
     tank, slack = case.tank, ROUND_OFF * case.tank.length
-    name = PLACE.get(given.shape, "center")
+    name = shaped.place_of(given)
     key, value = f"{where}.{name}", getattr(given, name)
     there = shape.low[0] < effective_length(case) and shape.high[0] > 0.0
     require(there, key, value, f"in the tank, x from 0 to {tank.length:g} m")
@@ -133,6 +139,67 @@ def _check_place(case, where, given, shape):
         whole = given.shape in ("polygon", "cylinder") and given.axis == "y" and given.ends is None
         rule = f"between y = 0 and {width:g} m, for the tank is periodic there"
         require(not tank.periodic or whole or inside, key, value, rule)
+
+
+def _check_size(tank, where, given, shape):
+    """Refuse what is far larger than the tank, as a drawing in mm is that is taken for m."""
+    most = (1.0 + LARGEST) * max(tank.length, tank.width, tank.height)
+    ends = np.concatenate([shape.low, shape.high])
+    farthest = float(np.abs(ends[np.isfinite(ends)]).max())
+    name = THICKNESS[given.shape]
+    hint = f"; is unit = {given.unit!r} right?" if given.shape == "mesh" else ""
+    require(
+        farthest <= most,
+        f"{where}.{name}",
+        getattr(given, name),
+        f"such that it reaches no farther than {most:g} m from the origin, twice the largest size "
+        f"of the tank; here it is {farthest:.4g} m{hint}",
+    )
+
+
+def _check_gates(case, where, given, shape):
+    name = shaped.place_of(given)
+    for k, (low, high) in enumerate(gates.faces(case)):
+        apart = shape.high[0] <= low + ROUND_OFF or shape.low[0] >= high - ROUND_OFF
+        rule = f"outside of gate.{k}, x = {low:g} to {high:g} m, which it would be in the way of"
+        require(apart, f"{where}.{name}", getattr(given, name), rule)
+
+
+def _check_path(case, where, given, number):
+    """Refuse a prescribed motion that is too fast for any step, or leads out of the tank."""
+    motion = shaped.motion_of(given, number)
+    if motion is None:
+        return
+    name = "motion_file" if given.motion == "file" else "amplitude"
+    key, value = f"{where}.{name}", getattr(given, name)
+    points, spacing, tank = shaped.faces(case, number), case.particles.spacing, case.tank
+    times = np.unique(motion.moments(case.time.end))
+    between = np.sort(np.concatenate([times, 0.5 * (times[1:] + times[:-1])]))
+    rate = np.array([motion(time, 1) for time in between])
+    arm = np.hypot(*(points[:, [0, 2]] - np.asarray(motion.center)).T).max(initial=0.0)
+    speed = np.hypot(rate[:, 0], rate[:, 1]) + arm * np.abs(rate[:, 2])
+    fastest, k = case.time.courant * spacing / case.time.minimum, int(speed.argmax())
+    rule = (
+        f"a motion slower than {fastest:.4g} m/s, for which steps would be shorter than "
+        f"time.minimum; at t = {between[k]:.4g} s it is {speed[k]:.4g} m/s"
+    )
+    require(speed[k] <= fastest, key, value, rule)
+    inside = _beyond(tank, points) <= 0.0
+    for time in times[:: len(times) // MOMENTS + 1]:
+        moved = points + displacement(motion, points, 0.0, time)
+        out = float(_beyond(tank, moved)[inside].max(initial=0.0))
+        rule = (
+            f"a motion that stays in the tank: at t = {time:.4g} s it leads {out:.4g} m beyond its "
+            "bed or end walls"
+        )
+        require(out <= BEYOND * spacing, key, value, rule)
+
+
+def _beyond(tank, points):
+    """How far places (n, 3) [m] are beyond the end walls or below the bed, (n,) [m]."""
+    x, z = points[:, 0], points[:, 2]
+    ground = tank.bed_height(np.clip(x, 0.0, tank.length))
+    return np.maximum(np.maximum(-x, x - tank.length), ground - z)
 
 
 def _check_thickness(case, where, given, shape):

@@ -37,8 +37,8 @@ class Wavemaker:
     type: str = key(
         "theory of the piston's motion; none for a fixed wall", "none", family="wavemakers"
     )
-    height: float = key("wave height; 0 where a type needs none", 0.0, unit="m", low=0)
-    period: float = key("wave period; 0 where a type needs none", 0.0, unit="s", low=0)
+    height: float = key("wave height; 0 where a type needs none", 0.0, unit="m", low=0, high=1e3)
+    period: float = key("wave period; 0 where a type needs none", 0.0, unit="s", low=0, high=1e4)
     stroke: float = key(
         "stroke of the piston; 0 to follow from height; of a function the farthest it goes",
         0.0,
@@ -50,7 +50,9 @@ class Wavemaker:
         "forward",
         choices=("forward", "backward"),
     )
-    start: float = key("time in which the motion fades in; 0 for none", 0.0, unit="s", low=0)
+    start: float = key(
+        "time in which the motion fades in; 0 for none", 0.0, unit="s", low=0, high=1e6
+    )
     second_height: float = key(
         "height of the other wave of type bichromatic; 0 for the same", 0.0, unit="m", low=0
     )
@@ -83,7 +85,7 @@ class Wavemaker:
         high=2,
     )
     place: float = key("x at which a focused wave has its crest", 0.0, unit="m", low=0)
-    time: float = key("when it has; 0 for the soonest", 0.0, unit="s", low=0)
+    time: float = key("when it has; 0 for the soonest", 0.0, unit="s", low=0, high=1e4)
     amplitude: float = key(
         "height of that crest; 0 for the highest of largest_of waves", 0.0, unit="m", low=0
     )
@@ -119,7 +121,8 @@ class Wavemaker:
         False,
     )
     room: float = key(
-        "how far absorption may take the piston off its motion; 0 for twice its stroke",
+        "how far absorption may take the piston off its motion; 0 for twice its longest stroke, "
+        "however long the run",
         0.0,
         unit="m",
         low=0,
@@ -140,8 +143,10 @@ class Frame:
         choices=("none", "sway", "heave", "roll", "file"),
     )
     amplitude: float = key("amplitude of the sine", 0.0, unit="m, of roll deg", low=0, high=1e3)
-    period: float = key("period of the sine", 0.0, unit="s", low=0)
-    start: float = key("time in which the motion fades in; 0 for none", 0.0, unit="s", low=0)
+    period: float = key("period of the sine", 0.0, unit="s", low=0, high=1e6)
+    start: float = key(
+        "time in which the motion fades in; 0 for none", 0.0, unit="s", low=0, high=1e6
+    )
     center: tuple | None = key(
         "axis of the roll [x, z]; below the middle of the tank, at z = 0, if left out",
         None,

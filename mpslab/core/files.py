@@ -49,6 +49,14 @@ def replacing(path):
         raise
 
 
+def is_file(path):
+    """Whether a path, which may be empty or too long for any file, is one of a file."""
+    try:
+        return bool(path) and Path(path).is_file()
+    except (OSError, ValueError):
+        return False
+
+
 def remove_drafts(folder):
     """Remove what kills have left of `replacing` in a folder that nobody writes to."""
     for path in Path(folder).iterdir():

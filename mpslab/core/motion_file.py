@@ -1,14 +1,15 @@
 """Motions in the plane x-z from CSV files, those of a tank and of solids alike."""
 
 import csv
-from pathlib import Path
 
 import numpy as np
 
+from mpslab.core.files import is_file
 from mpslab.core.keys import CaseError, require
 from mpslab.core.motion import Table
 
 COLUMNS = {"x": 1.0, "z": 1.0, "roll": np.pi / 180.0}  # of a file, in m, m and rad
+UNITS = {"time": "s", "x": "m", "z": "m", "roll": "deg"}
 
 
 def read(path, key, center):
@@ -27,8 +28,7 @@ def read(path, key, center):
     CaseError
         If the file cannot be read, or is no such table.
     """
-    exists = bool(path) and Path(path).is_file()
-    require(exists, key, path, "a CSV file that exists")
+    require(is_file(path), key, path, "a CSV file that exists")
     return Table(*_table(path, f"{key} = {str(path)!r}"), center)
 
 
@@ -40,7 +40,10 @@ def _table(path, where):
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise CaseError(f"{where}: cannot be read as a CSV file ({error})") from error
     names = [cell.partition("[")[0].strip() for cell in rows[0]] if rows else []
-    if names[:1] != ["time"] or not set(names[1:]) <= set(COLUMNS) or len(names) != len(set(names)):
+    units = [cell.partition("[")[2].strip(" ]") for cell in rows[0]] if rows else []
+    meant = all(unit in ("", UNITS.get(name)) for name, unit in zip(names, units, strict=True))
+    known = set(names[1:]) <= set(COLUMNS) and len(names) == len(set(names))
+    if not meant or names[:1] != ["time"] or not known:
         raise CaseError(
             f"{where}: heading {','.join(rows[0] if rows else [])!r}: must be time [s] and any of "
             "x [m], z [m] and roll [deg], parted by commas"

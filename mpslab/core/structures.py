@@ -29,7 +29,7 @@ class Solid:
         kind="point",
         unit="m",
     )
-    radius: float = key("radius of a cylinder or sphere", 0.0, unit="m", low=0)
+    radius: float = key("radius of a cylinder or sphere", 0.0, unit="m", low=0, high=1e6)
     size: tuple | None = key(
         "lengths [x, y, z] of the sides of a box before it is turned", None, kind="point", unit="m"
     )
@@ -39,7 +39,7 @@ class Solid:
         copy="solid-{number}{suffix}",
     )
     unit: str = key("unit of the lengths in this file", "m", choices=("m", "cm", "mm"))
-    scale: float = key("factor on these lengths", 1.0, above=0, high=1e9)
+    scale: float = key("factor on these lengths", 1.0, above=0, high=1e6)
     rotation: tuple = key(
         "angles by which a box or mesh is turned about x, then y, then z (axes of the tank through "
         "its center), each right-handed: about y it turns z towards x",
@@ -74,11 +74,13 @@ class Solid:
         copy="solid-{number}-motion.csv",
     )
     amplitude: float = key("amplitude of the sine", 0.0, unit="m, of roll deg", low=0, high=1e3)
-    period: float = key("period of the sine", 0.0, unit="s", low=0)
-    start: float = key("time in which the motion fades in; 0 for none", 0.0, unit="s", low=0)
+    period: float = key("period of the sine", 0.0, unit="s", low=0, high=1e6)
+    start: float = key(
+        "time in which the motion fades in; 0 for none", 0.0, unit="s", low=0, high=1e6
+    )
     about: tuple = key("axis of the roll [x, z]", (0.0, 0.0), kind="place", unit="m")
     density: float = key("mean density of a free body; or mass", 0.0, unit="kg/m3", low=0, high=1e6)
-    mass: float = key("mass of a free body", 0.0, unit="kg, in 2-D kg/m", low=0)
+    mass: float = key("mass of a free body", 0.0, unit="kg, in 2-D kg/m", low=0, high=1e15)
     center_of_mass: tuple | None = key(
         "centre of mass [x, y, z] of a free body; that of its shape if left out",
         None,
@@ -100,9 +102,13 @@ class Solid:
         choices=MODES,
     )
     velocity: tuple = key(
-        "velocity [u, v, w] with which a free body is let go", (0.0, 0.0, 0.0), kind="point",
-        unit="m/s", low=-1e3,
-    )  # fmt: skip
+        "velocity [u, v, w] with which a free body is let go at the start; not with a release",
+        (0.0, 0.0, 0.0),
+        kind="point",
+        unit="m/s",
+        low=-1e3,
+        high=1e3,
+    )
     release: float = key("time until which a free body is held", 0.0, unit="s", low=0)
 
     def __post_init__(self):
@@ -115,9 +121,11 @@ class Mooring:
 
     name: str | None = key("its name; mooring-1 and so on if left out", None, **NAME)
     on: str = key("name of the body", kind="text")
-    anchor: tuple = key("place [x, y, z] that it is fixed to", kind="point", unit="m", low=-1e6)
+    anchor: tuple = key(
+        "place [x, y, z] that it is fixed to", kind="point", unit="m", low=-1e6, high=1e6
+    )
     at: tuple = key(
-        "place [x, y, z] on the body, as it is laid out", kind="point", unit="m", low=-1e6
+        "place [x, y, z] on the body, as it is laid out", kind="point", unit="m", low=-1e6, high=1e6
     )
     stiffness: float = key("force over stretch", unit="N/m, in 2-D N/m2", above=0)
     length: float = key("length at rest", unit="m", low=0)

@@ -75,7 +75,8 @@ def top(const double[::1] fluid, const double[::1] solid, int gap, double least_
 
     fluid, solid : (m,) shares at the points
     gap : the connected part ends where so many points or more follow each other at which water and
-        solids together fill less than half
+        solids together fill less than half; from solid to solid it goes on, for solids of any shape
+        are hollow inside
     least_room : share of room that counts as left where the solids leave less
 
     Returns the point below that place, and the share of the way from there to the next point;
@@ -83,11 +84,13 @@ def top(const double[::1] fluid, const double[::1] solid, int gap, double least_
     """
     cdef Py_ssize_t k, last = -1, wet = -1
     cdef double excess, above, part = float("nan")
+    cdef bint hollow
     with nogil:
         for k in range(fluid.shape[0]):
             if fluid[k] + solid[k] < 0.5:
                 continue
-            if last >= 0 and k - last > gap:
+            hollow = last >= 0 and solid[last] > fluid[last] and solid[k] > fluid[k]
+            if last >= 0 and k - last > gap and not hollow:
                 break
             last = k
             if fluid[k] >= 0.5 * max(1.0 - solid[k], least_room):

@@ -197,7 +197,7 @@ class RunFolder:
             self._earlier_seconds = earlier["wall_time [s]"]
             self._resumed = earlier["resumed"] + 1
             self._resumes = list(earlier.get("resumes", []))
-        except (OSError, ValueError, KeyError):
+        except (OSError, ValueError, KeyError, TypeError):
             self._resumed = 1
 
     def open_decomposition(self, last_step, ranks):

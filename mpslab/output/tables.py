@@ -17,7 +17,7 @@ def read_rows(path):
     """
     try:
         with path.open(newline="", encoding="utf-8") as file:
-            return list(csv.reader(line for line in file if line.endswith("\n")))
+            return [row for row in csv.reader(line for line in file if line.endswith("\n")) if row]
     except FileNotFoundError:
         return []
 
@@ -88,7 +88,10 @@ class CsvTable:
                 f"{self.path}: columns are {','.join(header)}, but the run writes "
                 f"{','.join(self.columns)}"
             )
-        return [row for row in rows if float(row[0]) <= last]
+        try:
+            return [row for row in rows if float(row[0]) <= last]
+        except ValueError as error:
+            raise ValueError(f"{self.path}: a row begins with no number ({error})") from None
 
     def append(self, row):
         """Add a row of numbers and strings, one for each column."""

@@ -63,6 +63,13 @@ def absorbing(case, paddle):
     rate, amplitude = _waves(maker, paddle)
     room = maker.room or ROOM * (paddle.farthest - paddle.backmost)
     require(room > 0.0, "wavemaker.room", maker.room, "> 0 m for a piston without its own motion")
+    require(
+        room < case.tank.length,
+        "wavemaker.room",
+        maker.room,
+        f"< tank.length = {case.tank.length:g} m; 0 takes {ROOM:g} strokes, "
+        f"{ROOM * (paddle.farthest - paddle.backmost):.4g} m",
+    )
     window = WINDOW * case.particles.spacing
     gauge = absorption.Gauge(rate, depth, gravity, window)
     delay = 0.5 * case.time.maximum

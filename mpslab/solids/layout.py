@@ -5,6 +5,7 @@ Water particles stand half a spacing off every boundary, wall particles half a s
 
 import numpy as np
 
+from mpslab.core.keys import CaseError
 from mpslab.core.lattice import at_row, effective_length, rows_across
 from mpslab.core.particles import FIRST_SOLID, FLUID, WATER, make_particles
 from mpslab.forcings import forcings_of, total
@@ -47,6 +48,8 @@ def build_particles(case, backmost=0.0, own=()):
     """
     spacing = case.particles.spacing
     water = _water(case, own)
+    if not len(water):
+        raise CaseError("solid: must leave room for the water: where they stand there is none left")
     parts = [(water, np.full(len(water), FLUID), WATER)]
     for body, solid in solids_of(case, backmost=backmost, own=own).bodies.items():
         parts.append((*solid.particles(case), body))

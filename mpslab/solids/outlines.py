@@ -11,7 +11,8 @@ An outline has
         The corners of what it covers.
     area : float [m2]
     thinnest : float [m]
-        Least distance across it; of sides that meet in a corner none.
+        Least distance across it, between sides that do not meet in a corner; of a triangle the
+    diameter of the circle inside it.
 """
 
 from functools import cached_property
@@ -107,6 +108,8 @@ class Polygon:
     def thinnest(self):
         """Along the normals of the sides to the next side that does not share a corner [m]."""
         start, along, length, normal = self._sides
+        if len(start) == 3:
+            return 4.0 * self.area / float(length.sum())
         least = np.inf
         for k in range(len(start)):
             for share in (0.02, 0.25, 0.5, 0.75, 0.98):

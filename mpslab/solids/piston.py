@@ -5,17 +5,18 @@ import numpy as np
 from mpslab.core import lattice, plugins
 from mpslab.core.keys import CaseError, shown
 from mpslab.core.particles import FACE, FILLER, TANK
+from mpslab.solids import shaped
 from mpslab.solids.absorption import absorbing
 from mpslab.solids.solid import Solid
 
-ROOM = 3  # spacings that must stay free between the piston and an obstacle or a gate
+ROOM = 3  # spacings that must stay free between the piston and what stands in the tank
 
 
 def make_paddle(case):
     """Motion of a case's wavemaker, None for a tank with a fixed wall in its place.
 
     Raises ValueError if the wavemaker cannot make its wave, would leave the tank, or would run into
-    the shore, an obstacle or a gate.
+    the shore, an obstacle, a gate or a solid.
     """
     if case.wavemaker.type == "none":
         return None
@@ -29,6 +30,9 @@ def make_paddle(case):
         _leave_room(f"obstacle.{i}.from", box.start, box.start[0], reach)
     for i, gate in enumerate(case.gate):
         _leave_room(f"gate.{i}.x", gate.x, gate.x, reach)
+    for i, (given, shape) in enumerate(zip(case.solid, shaped.shapes(case), strict=True)):
+        name = shaped.place_of(given)
+        _leave_room(f"solid.{i}.{name}", getattr(given, name), float(shape.low[0]), reach)
     return paddle
 
 

@@ -17,6 +17,8 @@ from mpslab.solids.solid import Solid
 
 CLEAR = 0.5  # spacings from the water, as it is laid, to a face at the least
 SAMPLES = {2: 300, 3: 60}  # along an axis, of the box around a solid
+# The key that says where a solid is, if it is not its center.
+PLACE = {"polygon": "points", "mesh": "file"}
 
 
 def shapes(case):
@@ -49,6 +51,11 @@ def _shape(given, tank, particles, number):
     slack = 0.5 * spacing
     ends = low if low > first + slack else -np.inf, high if high < last - slack else np.inf
     return Prism(_outline(given), given.axis, ends, rows * spacing)
+
+
+def place_of(given):
+    """The key of a table ``solid.NUMBER`` that says where the solid is."""
+    return PLACE.get(given.shape, "center")
 
 
 def lowest(tank):

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+from mpslab.core.files import is_file
 from mpslab.core.keys import CaseError, require
 from mpslab.later import Later, scipy
 
@@ -62,7 +63,7 @@ def read(path, key):
         If the file cannot be read, or the packages for it are not installed.
     """
     rule = f"a file that exists, {', '.join(SUFFIXES)}"
-    fits = Path(path).suffix.lower() in SUFFIXES and Path(path).is_file()
+    fits = Path(path).suffix.lower() in SUFFIXES and is_file(path)
     require(fits, key, path, rule)
     try:
         trimesh.Trimesh, igl.AABB  # noqa: B018

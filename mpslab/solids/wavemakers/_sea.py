@@ -64,7 +64,7 @@ def of_wavemaker(wavemaker, depth, gravity, record):
     the file of a spectrum cannot be read.
     """
     height, period, density, left_out = _density(wavemaker, depth, gravity)
-    low, high = _band(wavemaker)
+    low, high = band_of(wavemaker)
     record = record or RECORD * period
     least, most = FEWEST * period / (high - low), MOST * period / high
     if not least <= record <= most:
@@ -83,7 +83,8 @@ def of_wavemaker(wavemaker, depth, gravity, record):
     return Sea(height, period, record, first, variance, left_out(low / period, high / period))
 
 
-def _band(wavemaker):
+def band_of(wavemaker):
+    """Lowest and highest frequency of a sea, over that of its peak."""
     band = wavemaker.band
     if len(band) != 2 or not 0.1 <= band[0] < 1.0 < band[1] <= 10.0:
         raise ValueError(

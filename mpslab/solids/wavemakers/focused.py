@@ -28,7 +28,7 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
     paddle.require_positive("period", wavemaker.period, "s")
     period = wavemaker.period
     slow = dispersion.group_velocity(
-        np.array([2.0 * math.pi * wavemaker.band[-1] / period]), depth, gravity
+        np.array([2.0 * math.pi * _sea.band_of(wavemaker)[1] / period]), depth, gravity
     )
     soonest = wavemaker.place / float(slow[0]) + GROUP * period
     focus = wavemaker.time or soonest

@@ -49,7 +49,13 @@ def make(wavemaker, depth: float, gravity: float, end: float) -> paddle.Paddle:
         return Own(maker, 2.0 * most, most, -most, most, 0.0, note, maker=maker)
 
     def motion(t):
-        travel = np.vectorize(maker, otypes=[float])(t)
+        try:
+            travel = np.vectorize(maker, otypes=[float])(t)
+        except (ArithmeticError, TypeError, ValueError) as error:
+            raise ValueError(
+                f"wavemaker.function = {wavemaker.function!r}: must give a displacement [m] for "
+                f"any time from 0 to the end of the run ({error})"
+            ) from error
         return paddle.soft_start(t, wavemaker.start) * travel
 
     times = np.linspace(0.0, end, SAMPLES)

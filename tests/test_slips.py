@@ -1,0 +1,105 @@
+"""Mistakes in a case that are found before any work: solids that cannot be, units, sizes."""
+
+import pytest
+
+import mpslab
+from mpslab.core.keys import CaseError
+from mpslab.run.preflight import preflight
+
+BLOCK = {"shape": "polygon", "points": [[0.25, 0.05], [0.35, 0.05], [0.35, 0.15], [0.25, 0.15]]}
+
+
+def load(tmp_path, *solids, **changes):
+    """A tank of 0.6 x 0.1 m with solids."""
+    path = tmp_path / "case.toml"
+    path.write_text(
+        "[tank]\nlength = 0.6\ndepth = 0.1\nheight = 0.25\n[particles]\nspacing = 0.01\n"
+        "[time]\nend = 0.3\n",
+        encoding="utf-8",
+    )
+    return mpslab.load_case(path, {"solid": list(solids), **changes})
+
+
+def polygon(*points):
+    return {"shape": "polygon", "points": [list(point) for point in points]}
+
+
+def test_the_tank_itself_is_fine(tmp_path):
+    assert len(load(tmp_path, BLOCK).solid) == 1
+
+
+@pytest.mark.parametrize(
+    ("solid", "key", "why"),
+    [
+        ({**BLOCK, "name": "bed"}, "solid.0.name", "different from those of the tank"),
+        (polygon((0.2, 0.05), (0.3, 0.05), (0.4, 0.05)), "solid.0.points", "thick or more"),
+        (polygon((0.2, 0.05), (0.4, 0.05), (0.3, 0.054)), "solid.0.points", "thick or more"),
+        ({"shape": "cylinder", "center": [0.3, 0.0, 0.05], "radius": 45.0}, "solid.0.radius",
+         "no farther than 1.2 m"),
+        (polygon((-0.1, -0.1), (0.8, -0.1), (0.8, 0.12), (-0.1, 0.12)), "solid", "room for water"),
+        ({**BLOCK, "motion": "sway", "amplitude": 0.4, "period": 1.0}, "solid.0.amplitude",
+         "beyond its bed or end walls"),
+        ({**BLOCK, "motion": "heave", "amplitude": 0.1, "period": 0.3}, "solid.0.amplitude",
+         "beyond its bed or end walls"),
+        ({**BLOCK, "motion": "sway", "amplitude": 0.1, "period": 1e-6}, "solid.0.amplitude",
+         "a motion slower than"),
+        ({**BLOCK, "motion": "free", "density": 500.0, "velocity": [1e6, 0.0, 0.0]},
+         "solid.0.velocity", "from -1000 to 1000"),
+    ],
+)  # fmt: skip
+def test_a_solid_that_cannot_be_is_refused(tmp_path, solid, key, why):
+    with pytest.raises(CaseError) as caught:
+        load(tmp_path, solid)
+    assert str(caught.value).startswith(f"{key} = ") and why in str(caught.value)
+
+
+@pytest.mark.parametrize("heading", ["time [ms],x [m]", "time [s],x [mm]", "time [s],roll [rad]"])
+def test_a_motion_in_other_units_is_refused(tmp_path, heading):
+    file = tmp_path / "motion.csv"
+    file.write_text(f"{heading}\n0,0\n0.1,0.005\n0.2,0\n", encoding="utf-8")
+    with pytest.raises(CaseError, match=r"heading .* must be time \[s\]"):
+        load(tmp_path, {**BLOCK, "motion": "file", "motion_file": str(file)})
+
+
+def test_a_motion_without_units_is_taken(tmp_path):
+    file = tmp_path / "motion.csv"
+    file.write_text("time,x [m]\n0,0\n0.1,0.005\n0.2,0\n", encoding="utf-8")
+    load(tmp_path, {**BLOCK, "motion": "file", "motion_file": str(file)})
+
+
+def test_a_gate_cannot_pass_a_solid(tmp_path):
+    gate = {"x": 0.3, "speed": 0.5}
+    with pytest.raises(CaseError, match=r"solid\.0\.points = .*outside of gate\.0"):
+        load(tmp_path, BLOCK, gate=[gate])
+
+
+def test_the_piston_needs_room_before_a_solid(tmp_path):
+    solid = polygon((0.02, 0.0), (0.10, 0.0), (0.10, 0.15), (0.02, 0.15))
+    waves = {"wavemaker.type": "linear", "wavemaker.height": 0.03, "wavemaker.period": 1.0}
+    with pytest.raises(ValueError, match=r"solid\.0\.points = .*ahead of the foremost place"):
+        preflight(load(tmp_path, solid, **waves))
+
+
+@pytest.mark.parametrize(
+    ("changes", "key"),
+    [
+        ({"wavemaker.type": "irregular", "wavemaker.start": 1e6}, "wavemaker.start"),
+        ({"wavemaker.type": "focused", "wavemaker.time": 1e6}, "wavemaker.time"),
+        ({"wavemaker.type": "linear", "wavemaker.period": 1e308}, "wavemaker.period"),
+        ({"wavemaker.type": "file", "wavemaker.file": f"{'x' * 300}.csv"}, "wavemaker.file"),
+    ],
+)
+def test_numbers_and_names_beyond_all_use_are_refused(tmp_path, changes, key):
+    with pytest.raises(CaseError) as caught:
+        load(tmp_path, **changes)
+    assert str(caught.value).startswith(f"{key} = ")
+
+
+def test_a_gauge_sees_the_water_above_a_solid(tmp_path):
+    solid = polygon((0.2, 0.0), (0.4, 0.0), (0.4, 0.06), (0.2, 0.06))
+    gauge = [{"name": "top", "x": 0.3}]
+    short = {"scheme.settling": 20, "time.end": 0.01}
+    simulation = mpslab.Simulation(load(tmp_path, solid, gauge=gauge, **short))
+    simulation.run()
+    levels = simulation.table("gauges")
+    assert abs(levels[levels.dtype.names[-1]][-1] - 0.1) < 0.002
