@@ -103,3 +103,24 @@ def test_a_gauge_sees_the_water_above_a_solid(tmp_path):
     simulation.run()
     levels = simulation.table("gauges")
     assert abs(levels[levels.dtype.names[-1]][-1] - 0.1) < 0.002
+
+
+@pytest.mark.parametrize(
+    ("bed", "why"),
+    [
+        ([[0, 0], [0.3, 0], [0.3000001, 0.2], [0.3000002, 0], [0.6, 0]], "turns by 165 degrees"),
+        ([[0, 0], [0.003, 0.2], [0.6, 0.2]], "room for water"),
+    ],
+)
+def test_a_bed_that_cannot_be_is_refused(tmp_path, bed, why):
+    with pytest.raises(CaseError, match=f"tank.bed = .*{why}"):
+        load(tmp_path, **{"tank.bed": bed})
+
+
+def test_a_bed_may_have_steps(tmp_path):
+    load(tmp_path, **{"tank.bed": [[0, 0], [0.3, 0], [0.3001, 0.05], [0.6, 0.05]]})
+
+
+def test_steps_below_the_least_are_refused(tmp_path):
+    with pytest.raises(CaseError, match=r"time\.minimum = .*limit: viscous"):
+        preflight(load(tmp_path, **{"fluid.viscosity": 1000.0}))

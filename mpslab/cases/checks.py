@@ -1,8 +1,8 @@
 """Checks of a case that look at several keys at once."""
 
+import math
 from dataclasses import fields, replace
 from itertools import pairwise
-from math import ceil
 
 import numpy as np
 
@@ -40,6 +40,9 @@ SEAS, LATEST = ("irregular", "focused", "bichromatic"), 1e4  # s, until which th
 # hydrostatic pressure of 20 layers is 0.97 of what it should be in 2-D, 0.95 in 3-D, with 3.1 it is
 # 0.75.
 WIDEST_SOLVED = 2.3
+
+SPIKE = 165  # degrees that the bed may turn by at a corner
+SHARPEST = math.radians(SPIKE)
 
 NARROWEST = 1.5  # spacings that a radius may have at the least
 
@@ -148,6 +151,12 @@ def _check_bed(case):
     )
 
 
+    for (x0, z0), (x1, z1), (x2, z2) in zip(bed, bed[1:], bed[2:], strict=False):
+        turn = abs(math.atan2(z2 - z1, x2 - x1) - math.atan2(z1 - z0, x1 - x0))
+        rule = f"a line that turns by {SPIKE} degrees or less, and not as at x = {x1:g} m"
+        require(turn <= SHARPEST, "tank.bed", bed, rule)
+
+
 def _check_walls(case):
     tank = case.tank
     top = max(z for _, z in tank.bed)
@@ -178,10 +187,10 @@ def _check_spacing(case):
     key = max(("effective_radius", "gradient_radius"), key=lambda name: getattr(scheme, name))
     radius = getattr(scheme, key)
     require(
-        case.particles.layers >= ceil(radius),
+        case.particles.layers >= math.ceil(radius),
         "particles.layers",
         case.particles.layers,
-        f">= {ceil(radius)}, or 0, to fill scheme.{key} = {radius:g} spacings",
+        f">= {math.ceil(radius)}, or 0, to fill scheme.{key} = {radius:g} spacings",
     )
 
 

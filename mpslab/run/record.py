@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from mpslab.core.columns import PHASE_COLUMNS, name_of
+from mpslab.core.keys import shown
 from mpslab.core.kinds import KIND_NAMES, kinds_of
 from mpslab.core.schedule import due
 from mpslab.output import checkpoint
@@ -104,10 +105,20 @@ class Record:
         found = {name: rows for name, rows in found.items() if rows}
         for name, rows in found.items():
             for row in rows:
+                self._check_row(name, row)
                 self.series[name].add(row)
         if found:
             self._write(lambda: [self.folder.add_rows(*item) for item in found.items()])
         return found
+
+    def _check_row(self, name, row):
+        """Refuse a row of a user's instrument that is no row of its table."""
+        columns = self.instruments[name].columns
+        if not isinstance(row, tuple) or len(row) != len(columns):
+            raise ValueError(
+                f"instrument {name!r}: read() gave the row {shown(row)}: must be a tuple of "
+                f"{len(columns)} values, {', '.join(columns)}"
+            )
 
     def read_due(self, before):
         """Read the instruments that fall due in the step since `before` [s]."""

@@ -11,12 +11,14 @@ class Line:
     Attributes
     ----------
     tension : float [N]
-        In the last step, < 0 where it pushes; in 2-D of a slice 1 m wide.
+        In the last step, before the first one as laid out; < 0 where it pushes; in 2-D of a slice
+        1 m wide.
     """
 
     def __init__(self, given, body):
         self.given, self.body, self.tension = given, body, 0.0
         self.anchor, self.rest = np.array(given.anchor), np.array(given.at) - body.start
+        self.force()
 
     def force(self):
         """Force on the body and moment about its centre, (6,) [N, N m]."""

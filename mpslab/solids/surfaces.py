@@ -21,6 +21,7 @@ trimesh, igl = Later("trimesh"), Later("igl")
 SUFFIXES = (".stl", ".obj", ".ply")
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001}  # [m]
 INSTALL = "pip install 'mpslab[stl]'"
+BELOW, MOST_BELOW = 0.1, 1000  # sides of triangles, and how many of these are looked under
 LOOK = 24  # points along the longest side of a surface, where its winding number is looked at
 DOUBTFUL = (0.2, 0.8)  # winding numbers that are neither inside nor outside
 
@@ -182,10 +183,21 @@ def _doubtful(vertices, faces):
             for a, b in zip(low, high, strict=True)]  # fmt: skip
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
     number = winding(vertices, faces, grid)
+    if not (number >= 0.5).any():  # pieces that are far apart, between the points of the grid
+        number = winding(vertices, faces, _just_inside(vertices, faces))
     unsure = (number > DOUBTFUL[0]) & (number < DOUBTFUL[1])
     if not (number >= 0.5).any():
         return 1.0
     return float(unsure.sum() / (number > DOUBTFUL[0]).sum())
+
+
+def _just_inside(vertices, faces):
+    """Places a little below triangles, (k, 3)."""
+    some = faces[:: len(faces) // MOST_BELOW + 1]
+    a, b, c = (vertices[some[:, k]] for k in range(3))
+    normal = np.cross(b - a, c - a)  # as long as twice the area
+    size = np.sqrt(np.linalg.norm(normal, axis=1, keepdims=True))
+    return (a + b + c) / 3.0 - BELOW * normal / size
 
 
 def _filled(vertices, faces):
