@@ -66,7 +66,8 @@ def _frame(frame, case):
 
 def _crest(frame, spacing, width):
     piece = middle_slice(frame.time, frame, spacing, width)
-    wet = piece.fluid
+    apart = piece.apart(spacing)
+    wet = apart if apart.any() else piece.fluid
     crest = find_crest(piece.x[wet], piece.z[wet], piece.speed[wet], spacing)
     return {
         "crest_x [m]": crest.x,

@@ -4,9 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mpslab.analysis.overturning import find_front
+from mpslab.analysis.overturning import COLUMN, find_front
 from mpslab.analysis.panels import draw_panels
 from mpslab.core.kinds import FLUID
+from mpslab.core.particles import FIRST_SOLID
 
 PICTURES = 6
 BREAKER_FRAMES = 4
@@ -24,6 +25,7 @@ class Slice:
     speed, along : (n,) float32 [m/s], or None
         Speed, and velocity along x.
     pressure : (n,) float32 [Pa], or None
+    body : (n,) int8, or None
     """
 
     time: float
@@ -33,11 +35,23 @@ class Slice:
     speed: np.ndarray | None
     along: np.ndarray | None = None
     pressure: np.ndarray | None = None
+    body: np.ndarray | None = None
 
     @property
     def fluid(self):
         """Mask of the fluid particles, (n,) bool."""
         return self.kind == FLUID
+
+    def apart(self, spacing):
+        """Fluid that is neither above nor below a solid other than tank and piston, (n,) bool.
+
+        There an upright face of water, or a gap in it, tells nothing of waves.
+        """
+        if self.body is None or not (self.body >= FIRST_SOLID).any():
+            return self.fluid
+        column = np.floor(self.x / (COLUMN * spacing)).astype(int)
+        beside = np.unique(column[self.body >= FIRST_SOLID])
+        return self.fluid & ~np.isin(column, beside)
 
 
 def middle_slice(time, frame, spacing, width):
@@ -60,7 +74,8 @@ def middle_slice(time, frame, spacing, width):
     speed = None if velocity is None else np.linalg.norm(velocity, axis=1)
     along = None if velocity is None else velocity[:, 0]
     x, _, z = frame["position"][seen].T
-    return Slice(time, frame["kind"][seen], x, z, speed, along, pressure)
+    body = frame["body"][seen] if "body" in frame else None
+    return Slice(time, frame["kind"][seen], x, z, speed, along, pressure, body)
 
 
 def _slices(frames, case):
@@ -120,9 +135,9 @@ def draw_breaker(frames, case):
 
 def _front(piece, spacing):
     """The breaking front of a slice; None if there is none."""
-    water = piece.fluid
     if piece.along is None:
         return None
+    water = piece.apart(spacing)
     return find_front(piece.x[water], piece.z[water], piece.along[water], spacing)
 
 

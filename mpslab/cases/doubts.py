@@ -4,6 +4,7 @@ import numpy as np
 
 from mpslab.cases.checks import WAVES
 from mpslab.cases.contents import ROUNDING
+from mpslab.cases.sizes import sizes
 from mpslab.core import timestep
 from mpslab.core.keys import shown
 from mpslab.core.parameters import Case
@@ -26,9 +27,28 @@ def warnings(case: Case, paddle=None) -> list[str]:
     reach = case.wavemaker.stroke if case.wavemaker.type != "none" else 0.0
     if paddle:
         reach = paddle.foremost
-    looks = (_coarse_wave, _low_walls, _uneven_width, _narrow_bed, _long_step, _viscous_step)
+    looks = (_coarse_wave, _low_walls, _uneven_width, _narrow_bed, _long_step, _viscous_step,
+             _short_step, _late_pictures)  # fmt: skip
     found = [_uneven_bed(case, reach), *(look(case) for look in looks)]
     return [warning for warning in found if warning]
+
+
+def _short_step(case):
+    size = sizes(case)
+    if size.step >= case.time.minimum:
+        return ""
+    return (
+        f"time.minimum = {case.time.minimum:.3g} s: steps of {size.step:.3g} s are expected "
+        f"(limit: {size.limit}), and the run stops where they are shorter than that"
+    )
+
+
+def _late_pictures(case):
+    late = [time for time in case.output.pictures if time > case.time.end]
+    if not late:
+        return ""
+    end = case.time.end
+    return f"output.pictures: {shown(late)} s are after time.end = {end:g} s and not drawn"
 
 
 def _wave_height(case):

@@ -30,8 +30,7 @@ def sizes(case: Case) -> Sizes:
     Raises
     ------
     CaseError
-        If there are more steps or frames than any run has, steps are expected that are shorter than
-        the least, or an interval is no time at all.
+        If there are more steps or frames than any run has, or an interval is no time at all.
     """
     step, limit = _step(case)
     end, output = case.time.end, case.output
@@ -40,8 +39,6 @@ def sizes(case: Case) -> Sizes:
         most = MOST_STEPS * case.time.viscous * case.particles.spacing**2 / end
         rule = f"<= {most:.3g} m2/s, for the run takes {_many(count, step)}"
         require(count <= MOST_STEPS, "fluid.viscosity", case.fluid.viscosity, rule)
-    rule = f"<= {step:.3g} s, the step that is expected (limit: {limit}), or the run stops at once"
-    require(case.time.minimum <= step, "time.minimum", case.time.minimum, rule)
     rule = f"<= {MOST_STEPS * step:.3g} s, for the run takes {_many(count, step)}"
     require(count <= MOST_STEPS, "time.end", end, rule)
     for name in ("interval", "checkpoint", "gauge_interval"):
