@@ -50,9 +50,7 @@ class Wavemaker:
         "forward",
         choices=("forward", "backward"),
     )
-    start: float = key(
-        "time in which the motion fades in; 0 for none", 0.0, unit="s", low=0, high=1e6
-    )
+    start: float = key("time in which the motion fades in; 0 for none", 0.0, unit="s", low=0)
     second_height: float = key(
         "height of the other wave of type bichromatic; 0 for the same", 0.0, unit="m", low=0
     )
