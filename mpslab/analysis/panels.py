@@ -102,7 +102,7 @@ def _expected_speed(case, fast):
         right = max((box["to"][0] for box in boxes), default=case["tank"]["length"])
         left = min((box["from"][0] for box in boxes), default=0.0)
         return 0.5 * abs(initial["rate"]) * (right - left) or fast
-    if boxes and still_level(case) is None:
+    if still_level(case) is None:
         return COLLAPSE * fast
     if initial["type"] == "standing_wave":
         amplitude = initial["amplitude"]

@@ -16,6 +16,7 @@ from mpslab.core.kinds import FLUID
 from mpslab.core.parameters import Case
 from mpslab.forcings import frame, sponge
 from mpslab.solids import obstacles
+from mpslab.solids.absorption import SEAS
 from mpslab.solids.census import census
 
 # A case with more than this is taken for a mistake: its arrays would take hundreds of gigabytes.
@@ -34,15 +35,14 @@ WAVES = (
     "bichromatic",
 )  # fmt: skip
 
-SEAS, LATEST = ("irregular", "focused", "bichromatic"), 1e4  # s, until which they may fade in
+LATEST = 1e4  # s, until which a sea may fade in
 
 # Largest radius [spacings] with which walls that are solved for hold the water: with 2.3 the
 # hydrostatic pressure of 20 layers is 0.97 of what it should be in 2-D, 0.95 in 3-D, with 3.1 it is
 # 0.75.
 WIDEST_SOLVED = 2.3
 
-SPIKE = 165  # degrees that the bed may turn by at a corner
-SHARPEST = math.radians(SPIKE)
+SHARPEST = 165  # degrees that the bed may turn by at a corner
 
 NARROWEST = 1.5  # spacings that a radius may have at the least
 
@@ -153,8 +153,8 @@ def _check_bed(case):
 
     for (x0, z0), (x1, z1), (x2, z2) in zip(bed, bed[1:], bed[2:], strict=False):
         turn = abs(math.atan2(z2 - z1, x2 - x1) - math.atan2(z1 - z0, x1 - x0))
-        rule = f"a line that turns by {SPIKE} degrees or less, and not as at x = {x1:g} m"
-        require(turn <= SHARPEST, "tank.bed", bed, rule)
+        rule = f"a line that turns by {SHARPEST} degrees or less, and not as at x = {x1:g} m"
+        require(turn <= math.radians(SHARPEST), "tank.bed", bed, rule)
 
 
 def _check_walls(case):

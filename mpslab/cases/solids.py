@@ -166,33 +166,43 @@ def _check_gates(case, where, given, shape):
 
 
 def _check_path(case, where, given, number):
-    """Refuse a prescribed motion that is too fast for any step, or leads out of the tank."""
+    """Refuse a prescribed motion that cannot be."""
     motion = shaped.motion_of(given, number)
     if motion is None:
         return
     name = "motion_file" if given.motion == "file" else "amplitude"
     key, value = f"{where}.{name}", getattr(given, name)
-    points, spacing, tank = shaped.faces(case, number), case.particles.spacing, case.tank
-    times = np.unique(motion.moments(case.time.end))
+    points, times = shaped.faces(case, number), np.unique(motion.moments(case.time.end))
+    _check_speed(case, key, value, motion, points, times)
+    _check_stay(case, key, value, motion, points, times)
+
+
+def _check_speed(case, key, value, motion, points, times):
+    """Refuse a motion that is too fast for any step."""
     between = np.sort(np.concatenate([times, 0.5 * (times[1:] + times[:-1])]))
     rate = np.array([motion(time, 1) for time in between])
     arm = np.hypot(*(points[:, [0, 2]] - np.asarray(motion.center)).T).max(initial=0.0)
     speed = np.hypot(rate[:, 0], rate[:, 1]) + arm * np.abs(rate[:, 2])
-    fastest, k = case.time.courant * spacing / case.time.minimum, int(speed.argmax())
+    k = int(speed.argmax())
+    fastest = case.time.courant * case.particles.spacing / case.time.minimum
     rule = (
         f"a motion slower than {fastest:.4g} m/s, for which steps would be shorter than "
         f"time.minimum; at t = {between[k]:.4g} s it is {speed[k]:.4g} m/s"
     )
     require(speed[k] <= fastest, key, value, rule)
-    inside = _beyond(tank, points) <= 0.0
+
+
+def _check_stay(case, key, value, motion, points, times):
+    """Refuse a motion that leads what begins in the tank out of it."""
+    inside = _beyond(case.tank, points) <= 0.0
     for time in times[:: len(times) // MOMENTS + 1]:
         moved = points + displacement(motion, points, 0.0, time)
-        out = float(_beyond(tank, moved)[inside].max(initial=0.0))
+        out = float(_beyond(case.tank, moved)[inside].max(initial=0.0))
         rule = (
             f"a motion that stays in the tank: at t = {time:.4g} s it leads {out:.4g} m beyond its "
             "bed or end walls"
         )
-        require(out <= BEYOND * spacing, key, value, rule)
+        require(out <= BEYOND * case.particles.spacing, key, value, rule)
 
 
 def _beyond(tank, points):

@@ -39,9 +39,10 @@ def _table(path, where):
             rows = [row for row in csv.reader(stream) if row]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise CaseError(f"{where}: cannot be read as a CSV file ({error})") from error
-    names = [cell.partition("[")[0].strip() for cell in rows[0]] if rows else []
-    units = [cell.partition("[")[2].strip(" ]") for cell in rows[0]] if rows else []
-    meant = all(unit in ("", UNITS.get(name)) for name, unit in zip(names, units, strict=True))
+    heading = [cell.partition("[") for cell in rows[0]] if rows else []
+    names = [name.strip() for name, _, _ in heading]
+    meant = all(unit.strip(" ]") in ("", UNITS.get(name))
+                for name, (_, _, unit) in zip(names, heading, strict=True))  # fmt: skip
     known = set(names[1:]) <= set(COLUMNS) and len(names) == len(set(names))
     if not meant or names[:1] != ["time"] or not known:
         raise CaseError(

@@ -21,6 +21,7 @@ from mpslab.run.preflight_solids import gaps, solids
 from mpslab.run.preflight_text import sections
 from mpslab.run.preflight_waters import waters
 from mpslab.solids import filling, gates, obstacles
+from mpslab.solids.absorption import SEAS
 from mpslab.solids.census import census
 from mpslab.solids.piston import make_paddle
 from mpslab.theory import breaking, waves
@@ -37,7 +38,6 @@ BYTES_PER_NUMBER = 20.0  # of an entry of a table on the disk
 LEAST_STROKE = 0.1  # spacings
 MUCH = 0.05  # that a sponge reflects
 REGULAR = ("linear", "second_order", "cnoidal", "stream_function")
-SEAS = ("irregular", "focused", "bichromatic")
 LAYER, THICK = 0.2, 4.0  # of the layer on a crest: over the run-up above it, and spacings wanted
 SHORTEST_WAVE = 8.0  # spacings: shorter waves are damped soon
 

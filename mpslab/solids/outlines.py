@@ -12,7 +12,7 @@ An outline has
     area : float [m2]
     thinnest : float [m]
         Least distance across it, between sides that do not meet in a corner; of a triangle the
-    diameter of the circle inside it.
+        diameter of the circle inside it.
 """
 
 from functools import cached_property
