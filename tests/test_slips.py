@@ -124,3 +124,23 @@ def test_a_bed_may_have_steps(tmp_path):
 def test_steps_below_the_least_are_told(tmp_path):
     case = load(tmp_path, **{"fluid.viscosity": 1000.0})
     assert any(line.startswith("time.minimum = ") for line in preflight(case).warnings)
+
+
+@pytest.mark.parametrize(
+    ("key", "table", "part"),
+    [
+        ("gauge", {"name": "b", "x": 0.9}, "gauge.1.x = 0.9: must be from 0"),
+        ("gauge", {"name": "b"}, "gauge.1.x is missing"),
+        ("gauge", {"name": "a-2", "x": 0.1}, "gauge.1.name = 'a-2': must be different"),
+        ("gauge", {"name": "b", "x": ["gauge.2"]}, "gauge.1.x = 'gauge.2': must be a"),
+        ("probe", {"name": "b", "x": 0.2, "z": 0.9}, "probe.1.z = 0.9: must be from the bed"),
+    ],
+)
+def test_a_message_has_the_number_of_the_table_in_the_file(tmp_path, key, table, part):
+    several = {"name": "a", "x": [0.1, 0.2, 0.3]}
+    several = {"gauge": several, "probe": {"name": "a", "x": 0.2, "z": [0.01, 0.02, 0.03]}}[key]
+    with pytest.raises(CaseError) as caught:
+        load(tmp_path, **{key: [several, table]})
+    assert str(caught.value).startswith(part)
+    with pytest.raises(CaseError, match=rf"^{key}\.0\.[xz] = 7\.0: must be from"):
+        load(tmp_path, **{key: [{**several, "xz"[key == "probe"]: [0.1, 7.0]}]})

@@ -8,6 +8,7 @@ from mpslab.cases.checks import check
 from mpslab.cases.complete import complete
 from mpslab.cases.inputs import FILES
 from mpslab.cases.recipes import RECIPES
+from mpslab.cases.rows import as_written, one_by_one
 from mpslab.core.keys import (
     CaseError,
     check_value,
@@ -57,10 +58,15 @@ def from_tables(tables: dict, name: str = "case") -> Case:
     parts = {key: tables[key] for key in ("name", "title") if key in tables}
     for key, kind in TABLES.items():
         parts[key] = _table(kind, tables.get(key, {}), key)
-    for key, kind in LISTS.items():
-        parts[key] = _tables(kind, _one_by_one(tables.get(key, []), key), key)
-    case = complete(Case(**parts))
-    check(case)
+    lists = {key: one_by_one(tables.get(key, []), key) for key in LISTS}
+    try:
+        for key, kind in LISTS.items():
+            parts[key] = _tables(kind, lists[key][0], key)
+        case = complete(Case(**parts))
+        check(case)
+    except CaseError as error:
+        numbers = {key: found for key, (_, found) in lists.items()}
+        raise CaseError(as_written(str(error), numbers)) from None
     return case
 
 
@@ -87,28 +93,6 @@ def _with_recipe(scheme):
     recipe = scheme.get("recipe", "standard")
     require_choice("scheme.recipe", recipe, tuple(RECIPES))
     return {**RECIPES[recipe], **scheme}
-
-
-def _one_by_one(items, where):
-    """The tables, with as many [[gauge]] as a list of places x has, or [[probe]] as one of heights
-    z has: NAME-1, NAME-2 and so on.
-    """
-    key = {"gauge": "x", "probe": "z"}.get(where)
-    if key is None or not isinstance(items, list | tuple):
-        return items
-    apart = []
-    for i, values in enumerate(items):
-        places = values.get(key) if isinstance(values, dict) else None
-        if not isinstance(places, list | tuple):
-            apart.append(values)
-            continue
-        if not places:
-            raise CaseError(f"{where}.{i}.{key} = []: must be a number, or a list of numbers [m]")
-        name = values.get("name")
-        for k, place in enumerate(places, 1):
-            number = {"name": f"{name}-{k}"} if isinstance(name, str) else {}
-            apart.append({**values, **number, key: place})
-    return apart
 
 
 def _tables(kind, items, where):
