@@ -144,3 +144,12 @@ def test_a_message_has_the_number_of_the_table_in_the_file(tmp_path, key, table,
     assert str(caught.value).startswith(part)
     with pytest.raises(CaseError, match=rf"^{key}\.0\.[xz] = 7\.0: must be from"):
         load(tmp_path, **{key: [{**several, "xz"[key == "probe"]: [0.1, 7.0]}]})
+
+
+@pytest.mark.parametrize("edge", [0.25, 0.26, 0.262, 0.264])
+def test_water_inside_a_solid_is_refused(tmp_path, edge):
+    solid = polygon((edge, 0.05), (0.6 - edge, 0.05), (0.6 - edge, 0.15), (edge, 0.15))
+    box = {"from": [0.264, 0.0, 0.064], "to": [0.335, 0.0, 0.123]}
+    with pytest.raises(CaseError, match=r"^solid = \['solid-1'\]: must be .*room for water"):
+        load(tmp_path, solid, water=[box])
+    load(tmp_path, solid, water=[{**box, "to": [0.335, 0.0, 0.171]}])

@@ -15,12 +15,16 @@ from mpslab.core.keys import CaseError, require, require_choice, toml_name
 from mpslab.core.kinds import FLUID
 from mpslab.core.parameters import Case
 from mpslab.forcings import frame, sponge
-from mpslab.solids import obstacles
+from mpslab.solids import layout, obstacles
 from mpslab.solids.absorption import SEAS
 from mpslab.solids.census import census
 
 # A case with more than this is taken for a mistake: its arrays would take hundreds of gigabytes.
 MOST_PARTICLES = 1e9
+
+# Share of the water that solids may leave for it to be laid out, and most particles of it: how much
+# is left is known roughly by arithmetic, and so not whether any is.
+MUCH, MOST_LAID_OUT = 0.7, 1e6
 
 # How many tables, or points, there may be under a key.
 MOST = {
@@ -208,7 +212,8 @@ def _check_count(case):
     count = found.sum()
     key = "solid" if case.solid else "tank.bed"
     value = [given.name for given in case.solid] or case.tank.bed
-    require(found[FLUID] >= 0.5, key, value, "such that there is room for water: here is none")
+    wet = _has_water(case, found[FLUID])
+    require(wet, key, value, "such that there is room for water: here is none")
     if count <= MOST_PARTICLES:
         return
     top = max(case.tank.depth, max(z for _, z in case.tank.bed))
@@ -216,6 +221,14 @@ def _check_count(case):
     rule = f"lower: with walls so high there are {count:.1g} particles, more than 1e+09"
     require(least > MOST_PARTICLES, "tank.height", case.tank.height, rule)
     require(False, "particles.spacing", case.particles.spacing, _wider(case, count))
+
+
+def _has_water(case, count):
+    """Whether solids leave any water; where they take much of it, the water is laid out to see."""
+    whole = census(replace(case, solid=()))[FLUID] if case.solid else count
+    if not case.solid or count > MUCH * whole or whole > MOST_LAID_OUT:
+        return count >= 0.5
+    return len(layout.water(case)) > 0
 
 
 def _check_width(case):

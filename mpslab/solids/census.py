@@ -92,7 +92,7 @@ def _water(case):
             across = round(high[1] / spacing) - round(low[1] / spacing) if case.dim == 3 else 1
             height = np.maximum(high[2] - ground(case, x, low[2])[0], 0.0) / spacing
             total += share * across * each * height.sum()
-        total -= share * shaped.taken(case, start, end) / spacing**case.dim
+        total -= share * shaped.taken(case, *filling.laid(case, start, end)) / spacing**case.dim
     return max(total, 0.0)
 
 

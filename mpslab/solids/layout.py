@@ -47,10 +47,10 @@ def build_particles(case, backmost=0.0, own=()):
         The user's, in addition to those of the case.
     """
     spacing = case.particles.spacing
-    water = _water(case, own)
-    if not len(water):
+    wet = water(case, own)
+    if not len(wet):
         raise CaseError("solid: must leave room for the water: where they stand there is none left")
-    parts = [(water, np.full(len(water), FLUID), WATER)]
+    parts = [(wet, np.full(len(wet), FLUID), WATER)]
     for body, solid in solids_of(case, backmost=backmost, own=own).bodies.items():
         parts.append((*solid.particles(case), body))
     position = np.vstack([place for place, _, _ in parts])
@@ -65,7 +65,7 @@ def build_particles(case, backmost=0.0, own=()):
     return particles
 
 
-def _water(case, own):
+def water(case, own=()):
     """Water of all rows across the tank, each particle displaced a little at random: (n, 3) [m]."""
     spacing, flat = case.particles.spacing, case.dim == 2
     sections = [filling.section(case, row) for row in range(1 if flat else len(filling.PHASES))]
@@ -74,11 +74,11 @@ def _water(case, own):
         y, section = 0.0 if flat else (row + 0.5) * spacing, sections[row % len(sections)]
         wet = flat | ((section[:, 2] < y) & (y < section[:, 3]))
         rows.append(at_row(section[wet], y))
-    water = np.vstack(rows)
-    water += _jitter(case, len(water))
+    place = np.vstack(rows)
+    place += _jitter(case, len(place))
     for solid in own:
-        water = water[~solid.holds(water)]
-    return shaped.give_way(case, water)
+        place = place[~solid.holds(place)]
+    return shaped.give_way(case, place)
 
 
 def _jitter(case, n):
