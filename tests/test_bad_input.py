@@ -8,8 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mpslab import cases
-from mpslab.core.keys import toml_name
+from mpslab.core.keys import LARGEST, SMALLEST, toml_name
 from mpslab.core.parameters import LISTS, TABLES, Case, CaseError, Gauge, Particles, Tank, Time
+from mpslab.run.preflight import preflight
 
 INF, NAN = math.inf, math.nan
 
@@ -74,6 +75,10 @@ VALUES = [
     ("output.fields", ["velocty"], "must be a list out of velocity, pressure"),
     ("output.fields", ["velocty"], "did you mean velocity?"),
     ("output.pictures", [0.1, "end"], "output.pictures = [0.1, 'end']: must be a list of numbers"),
+    ("gauge.0.x", 1e308, "gauge.0.x = 1e+308: must be a number >= 0 [m], and unless 0 of a size"),
+    ("time.end", 5e-324, "must be a number > 0 [s], and unless 0 of a size from 1e-30 to 1e+30"),
+    ("tank.bed", [[0, 0], [0.8, 1e-200]], "each number >= 0 [m], and unless 0 of a size from"),
+    ("wavemaker.offset", 1e30, "must be a number from -1e+09 to 1e+09 [s]"),
     ("gauge.0.name", "a,b", "gauge.0.name = 'a,b': must be text of one line"),
     ("gauge.0.name", "", "gauge.0.name = '': must be text of one line and not empty"),
     ("name", "two\nlines", "name = 'two\\nlines': must be text of one line"),
@@ -365,13 +370,14 @@ def test_any_value_of_any_key_is_taken_or_refused_in_one_line(key, value):
         assert cases.loads(cases.dumps(case)) == case
 
 
-@pytest.mark.parametrize("value", [5e-324, 1e-200, 1e200, 1.7e308])
-def test_tiny_and_huge_numbers_are_taken_or_refused_in_one_line(value):
+@pytest.mark.parametrize("name", ["dam_break", "regular_waves"])
+@pytest.mark.parametrize("value", [5e-324, 1e-200, SMALLEST, -SMALLEST, LARGEST, 1e200, 1.7e308])
+def test_tiny_and_huge_numbers_are_taken_or_refused_in_one_line(name, value):
     for key in EVERY_KEY:
         try:
-            cases.warnings(cases.load_case("dam_break", {key: value}))
-        except CaseError as error:
-            assert len(str(error).splitlines()) == 1
+            preflight(cases.load_case(name, {key: value})).text()
+        except ValueError as error:
+            assert len(str(error).splitlines()) == 1 and " must " in str(error), key
 
 
 @given(st.text(max_size=40))

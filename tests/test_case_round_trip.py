@@ -11,7 +11,7 @@ from mpslab.cases.checks import NARROWEST, WIDEST_SOLVED
 from mpslab.cases.complete import complete
 from mpslab.cases.recipes import RECIPES
 from mpslab.core import plugins
-from mpslab.core.keys import toml_name
+from mpslab.core.keys import SMALLEST, toml_name
 from mpslab.core.parameters import LISTS, TABLES, Case
 
 
@@ -64,7 +64,13 @@ def in_range(metadata):
     if metadata["kind"] == "integer":
         return st.integers(int(low), int(high))
     above = "above" in metadata
-    return st.floats(1e-300 if above and low == 0 else low, high, exclude_min=above)
+    found = st.floats(SMALLEST if above and low == 0 else low, high, exclude_min=above)
+    return found.map(no_trifle)
+
+
+def no_trifle(number):
+    """The number, 0 where it is smaller than any that a key may have."""
+    return number if abs(number) >= SMALLEST else 0.0
 
 
 @st.composite
@@ -72,7 +78,7 @@ def valid_tables(draw):
     spacing = draw(st.floats(1e-6, 10.0))
     length, depth = (spacing * draw(st.floats(3.1, 60.0)) for _ in range(2))
     width = draw(st.sampled_from((0.0, 20.0 * spacing)))
-    place = st.floats(0.0, length)
+    place = st.floats(0.0, length).map(no_trifle)
     tank = {"length": length, "depth": depth, "width": width, "periodic": draw(st.booleans())}
     stabilisers = st.permutations(plugins.names("stabilisers"))
     scheme = draw(numbers_of("scheme"))
@@ -87,7 +93,7 @@ def valid_tables(draw):
         "tank": tank,
         "particles": {"spacing": spacing, **draw(numbers_of("particles", "spacing", "layers"))},
         "time": {"end": draw(st.floats(1e-3, 1e6))},
-        "fluid": {"gravity": draw(st.floats(0.0, 1e3, exclude_min=True))}
+        "fluid": {"gravity": draw(st.floats(SMALLEST, 1e3))}
         | draw(numbers_of("fluid", "gravity")),
         "scheme": scheme,
         "wavemaker": {
@@ -95,7 +101,8 @@ def valid_tables(draw):
             "file": draw(line()),
             **draw(numbers_of("wavemaker", "stroke", "room")),
         },
-        "output": draw(numbers_of("output")) | {"pictures": draw(st.lists(st.floats(0.0, 1e9)))},
+        "output": draw(numbers_of("output"))
+        | {"pictures": draw(st.lists(st.floats(0.0, 1e9).map(no_trifle)))},
         "gauge": [
             {"name": str(i), "x": x} for i, x in enumerate(draw(st.lists(place, max_size=4)))
         ],

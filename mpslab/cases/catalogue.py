@@ -12,7 +12,7 @@ TITLE = """\
 # The keys of a case
 
 What `python -m mpslab.tank --keys` prints: of every key what it must be, its default and what it
-means. A key without a default is required.
+means. A key without a default is required. A number other than 0 has a size from 1e-30 to 1e+30.
 """
 WIDTH = 100
 

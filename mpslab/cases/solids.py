@@ -10,6 +10,7 @@ from mpslab.core.motion import displacement
 from mpslab.solids import gates, obstacles, shaped, surfaces
 
 MOST_POINTS = 1000
+SHORTEST = 0.1  # spacings, that a side may be long at the least
 ROUND_OFF = 1e-9  # of a length
 DOUBTFUL = 0.05  # share of the space around a mesh that may be neither inside nor outside
 FLAT = ("polygon", "cylinder", "box")  # shapes for a 2-D tank
@@ -52,11 +53,18 @@ def _check_shape(case, where, given):
     if given.shape in ("cylinder", "sphere"):
         require(given.radius > 0.0, f"{where}.radius", given.radius, f"> 0 for a {given.shape}")
     if given.shape == "box":
-        positive = given.size is not None and min(given.size) > 0.0
-        require(positive, f"{where}.size", given.size, "three lengths > 0 for a box")
+        _check_sides(case, where, given.size)
     _check_rotation(where, given, flat)
     require(given.ends is None or given.ends[0] < given.ends[1], f"{where}.ends", given.ends,
             "[low, high] with low < high")  # fmt: skip
+
+
+def _check_sides(case, where, size):
+    key = f"{where}.size"
+    require(size is not None and min(size) > 0.0, key, size, "three lengths > 0 for a box")
+    least = SHORTEST * case.particles.spacing
+    sides = size if case.dim == 3 else size[::2]
+    require(min(sides) >= least, key, size, f"{least:g} m, a tenth of a spacing, long or more")
 
 
 def _check_rotation(where, given, flat):
@@ -83,7 +91,7 @@ def _check_points(case, where, points):
     many = 3 <= len(points) <= MOST_POINTS
     require(many, key, points, f"3 corners or more, {MOST_POINTS:,} at the most")
     corners = np.array(points)
-    least = 0.1 * case.particles.spacing
+    least = SHORTEST * case.particles.spacing
     side = np.hypot(*(np.roll(corners, -1, axis=0) - corners).T)
     require(side.min() >= least, key, points,
             f"corners that are {least:g} m, a tenth of a spacing, apart or more")  # fmt: skip

@@ -13,6 +13,9 @@ class CaseError(ValueError):
 # A name becomes the heading of a column, or part of a file name.
 NAME = {"kind": "text", "forbidden": ",;\"'[]/\\#", "longest": 80}
 
+# Sizes of a number other than 0; what is derived from any others may be beyond floating point.
+SMALLEST, LARGEST = 1e-30, 1e30
+
 # What a key holds, where it is not said, follows from the type of its default.
 _KINDS = {bool: "flag", int: "integer", str: "text"}
 
@@ -70,9 +73,15 @@ def check_value(name: str, value, metadata):
     plain = value.tolist() if hasattr(value, "tolist") else value  # numpy's numbers and arrays
     try:
         return _READERS[metadata["kind"]](plain, metadata)
+    except _ExtremeError:
+        hint = f", and unless 0 of a size from {SMALLEST:g} to {LARGEST:g}"
     except (TypeError, ValueError, OverflowError):
         hint = did_you_mean(plain, metadata.get("choices", ()))
-        raise CaseError(f"{name} = {shown(plain)}: must be {rule(metadata)}{hint}") from None
+    raise CaseError(f"{name} = {shown(plain)}: must be {rule(metadata)}{hint}")
+
+
+class _ExtremeError(ValueError):
+    """A number within its range whose size is near the limits of floating point."""
 
 
 def require_choice(name: str, value, choices) -> None:
@@ -145,6 +154,8 @@ def _number(value, metadata):
         raise ValueError
     if number <= metadata.get("above", -math.inf):
         raise ValueError
+    if number and not SMALLEST <= abs(number) <= LARGEST:
+        raise _ExtremeError
     return number
 
 

@@ -64,6 +64,8 @@ def _afloat(case, shape, weight, center):
     level = min(int(draft / sides[-1] * count), count - 1)
     z = low[-1] + sides[-1] * share
     part = np.clip(draft / sides[-1] * count - np.arange(count), 0.0, 1.0) * layers
+    if not part.any():
+        return {}  # so light that it dips no more than its tip into the water
     buoyancy = float(np.sum(part * z) / np.sum(part))
     x = low[0] + sides[0] * share
     plane = inside[..., level].sum(axis=1) if case.dim == 3 else inside[..., level].astype(float)
