@@ -215,3 +215,44 @@ def test_another_forcing_than_the_run_began_with_is_refused(tmp_path):
     Simulation(make_case(), tmp_path / "run", forcings=[wind]).run(until=0.005)
     with pytest.raises(ValueError, match=r"forcings = \[\]: .*, \['test_forcings:wind'\]"):
         Simulation.resume(tmp_path / "run", forcings=[])
+
+
+@pytest.mark.parametrize(
+    ("gives", "why"),
+    [
+        (lambda position: np.ones(len(position)), r"gave an array of shape \(2,\) for 2 particles"),
+        (lambda position: position[:, :2], r"gave an array of shape \(2, 2\) .*: must be"),
+        (lambda position: 1.0, r"gave an array of shape \(\)"),
+        (lambda position: None, r"gave an array of shape \(\)"),
+        (lambda position: [[1.0], [1.0, 2.0]], r"gave \[\[1.0\], \[1.0, 2.0\]\]"),
+        (lambda position: [0.0, 0.5, 0.0], "gave 0.5 m/s2 along y: must be 0 in a 2-D tank"),
+        (lambda position: np.add(position, [0.0, -2.0, 0.0]), "gave -2 m/s2 along y"),
+    ],
+)
+def test_own_forcing_that_gives_no_acceleration_is_refused_by_name(tmp_path, gives, why):
+    def gale(position, velocity, time):
+        return gives(position)
+
+    with pytest.raises(ValueError, match=f"^forcing 'gale': {why}"):
+        Simulation(make_case(), tmp_path / "run", forcings=[gale])
+    assert not (tmp_path / "run").exists()
+
+
+def test_own_forcing_that_goes_wrong_later_is_named(tmp_path):
+    def gale(position, velocity, time):
+        return np.zeros(3 if time < 0.002 else 2)
+
+    with pytest.raises(ValueError, match=r"^forcing 'gale': gave an array of shape \(2,\)"):
+        Simulation(make_case(), forcings=[gale]).run(until=0.01)
+
+
+def test_own_forcing_that_is_no_function_is_refused():
+    with pytest.raises(ValueError, match=r"^forcing = 9\.81: must be a function"):
+        Simulation(make_case(), forcings=[9.81])
+
+
+def test_own_forcing_may_push_across_a_tank_that_has_a_width():
+    case = make_case({"tank.width": 0.02, "tank.periodic": True})
+    forcings = forcings_of(case, [lambda *given: [0.0, 1.0, 0.0]])
+    force = total(forcings, particles_at(np.zeros((2, 3))), 0.0)
+    np.testing.assert_allclose(force, [0.0, 1.0, -G])

@@ -1,6 +1,7 @@
 """Where a run starts: with its tank laid out, or from a checkpoint."""
 
 from mpslab.core.particles import ParticleSet, no_particles
+from mpslab.forcings import check_own
 from mpslab.output import checkpoint
 from mpslab.parallel.communicator import on_root
 from mpslab.parallel.domain import world
@@ -48,6 +49,7 @@ def take_up(found, path):
 
 def _flow(case, own, paddle, make):
     """The flow of the particles that `make` gives on rank 0: no other holds the whole tank."""
+    check_own(case, own.forcings)
     particles = on_root(world(), make) or no_particles()
     solids = solids_of(case, paddle, own.solids)
     return make_flow(case, particles, solids, layout.period(case), own.forcings)
