@@ -273,6 +273,19 @@ def test_file_without_triangles_is_refused(tmp_path):
         make_case({**TANK, "solid": [solid(path)]})
 
 
+@pytest.mark.parametrize("center", [None, [0.1, 0.07, 0.026]])
+def test_message_names_what_the_table_says_of_the_place(tmp_path, center):
+    path = tmp_path / "block.obj"
+    mesh = block([0.05, 0.05, 0.05])
+    mesh.apply_translation([0.0, 0.0, 0.0] if center else [0.1, 0.07, 0.026])
+    mesh.export(path)
+    place = {"center": center} if center else {}
+    given = {"shape": "mesh", "file": str(path), "motion": "free", "density": 500.0, **place}
+    key = r"center = \[0\.1" if center else "file = '.*block.obj'"
+    with pytest.raises(CaseError, match=rf"^solid\.0\.{key}.*a spacing, or more off the tank"):
+        make_case({**TANK, "solid": [given]})
+
+
 def test_thin_plate_is_refused(tmp_path):
     path = tmp_path / "plate.obj"
     block([0.08, 0.08, 0.03]).export(path)

@@ -9,6 +9,7 @@ from mpslab.instruments import check_names
 from mpslab.solids.collection import solids_of
 from mpslab.solids.contact import APART, Contact
 from mpslab.solids.floating import FLAT, weigh
+from mpslab.solids.shaped import place_of
 
 OWN = ("density", "mass", "center_of_mass", "inertia", "locked", "velocity", "release")
 STIFFEST = 0.5  # of a line: its frequency times the largest step
@@ -71,12 +72,11 @@ def _check_room(case, free):
     """Refuse bodies that are laid out in contact with something."""
     for i, gaps in zip(free, gaps_of(case), strict=True):
         least = APART * case.particles.spacing
-        given = case.solid[i]
-        key = f"solid.{i}.{'points' if given.shape == 'polygon' else 'center'}"
+        given, place = case.solid[i], place_of(case.solid[i])
         for name, gap in gaps.items():
             rule = f"{least:g} m, a spacing, or more off the {name}; here it is {shown(gap)} m"
-            value = given.points or given.center
-            require(gap >= least * (1.0 - 1e-6), key, value, rule)
+            fits = gap >= least * (1.0 - 1e-6)
+            require(fits, f"solid.{i}.{place}", getattr(given, place), rule)
 
 
 def gaps_of(case):

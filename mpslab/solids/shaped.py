@@ -55,6 +55,8 @@ def _shape(given, tank, particles, number):
 
 def place_of(given):
     """The key of a table ``solid.NUMBER`` that says where the solid is."""
+    if given.shape == "mesh" and given.center is not None:
+        return "center"  # which a mesh may have
     return PLACE.get(given.shape, "center")
 
 
