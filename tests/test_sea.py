@@ -305,6 +305,36 @@ def test_runs_without_waves_are_refused(tmp_path, capsys):
     assert "has no readings of gauges" in refused(capsys, empty)
 
 
+def small_waves(folder, size, changes):
+    """A run whose elevation is a sine of a Hm0 [spacings], 4 sigma."""
+    time = np.arange(0.0, 30.0, 0.05)
+    level = size * DEPTH / 20.0 / np.sqrt(8.0) * np.sin(4.0 * time)[:, np.newaxis]
+    return write_run(folder, time, level, [3.0], DEPTH, changes)
+
+
+def test_noise_of_still_water_is_no_sea(tmp_path, capsys):
+    line = refused(capsys, small_waves(tmp_path / "still", 0.24, {}))
+    assert "no waves: the levels at all gauges stay as those of still water" in line
+    assert "(Hm0 below 0.00625 m, a quarter of a spacing)" in line
+    assert "nothing in the case moves it" in line
+    assert "no waves" in refused(capsys, tmp_path / "still", "--period", "1.57")
+
+
+@pytest.mark.parametrize(
+    ("size", "changes"),
+    [
+        (0.26, {}),
+        (0.1, {"initial.type": "standing_wave", "initial.amplitude": 0.01}),
+        (0.1, {"frame.type": "sway", "frame.amplitude": 0.001, "frame.period": 1.57}),
+        (0.1, {"water": [{"from": [0, 0, 0], "to": [1, 0, 0.5]}]}),
+        (0.1, {"gate": [{"x": 2.0, "speed": 0.1}]}),
+    ],
+)
+def test_small_waves_that_something_makes_are_a_sea(tmp_path, size, changes):
+    found = command.look(small_waves(tmp_path / "run", size, changes))
+    assert found.gauges["Hm0"][0] == pytest.approx(size * DEPTH / 20.0, rel=0.1)
+
+
 def test_run_that_ends_before_the_waves_come_is_refused(tmp_path, capsys):
     time, level = regular_record(8.0)
     run = write_run(tmp_path / "run", time, level, PLACES, DEPTH, DRIVEN)

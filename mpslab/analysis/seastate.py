@@ -15,13 +15,14 @@ from mpslab.analysis import (
     windows,
 )
 from mpslab.analysis.harmonics import HARMONICS, harmonics
-from mpslab.analysis.still import still_level
+from mpslab.analysis.still import at_rest, still_level
 from mpslab.core import bed
 from mpslab.run.preflight import REGULAR
 
 BAND = (1.0 / 3.0, 6.0)  # times the peak frequency
 FEW_WAVES = 20
 TOLD = 1e-3  # share of the variance: if less is left out of a reflection, no note says so
+CALM = 0.25  # spacings: levels of still water differ by less, and particles carry no such waves
 SEGMENT = 20.0  # peak periods in a segment of a record that is twice as long
 
 AMPLITUDES = tuple(f"a{n}" for n in range(1, HARMONICS + 1))
@@ -142,6 +143,7 @@ def analyse(
     notes = _dry_notes(seen)
     if not seen.wet.any():
         raise ValueError(f"'{run.folder}': all gauges are dry, {window}")
+    _refuse_still(known, seen)
     period = known.period or _peak_period(seen)
     band = _band(band, period, seen.step)
     length = _segment(segment, period, seen)
@@ -269,6 +271,16 @@ def _dry_notes(seen):
         for name, dry, wet in zip(seen.names, seen.dry, seen.wet, strict=True)
         if dry > 0.0
     ]
+
+
+def _refuse_still(known, seen):
+    """Refuse water that nothing moves, and whose levels are no waves that particles could carry."""
+    most = CALM * known.case["particles"]["spacing"]
+    if at_rest(known.case) and np.all(4.0 * seen.elevation[:, seen.wet].std(axis=0) < most):
+        raise ValueError(
+            f"'{known.run.folder}': no waves: the levels at all gauges stay as those of still water"
+            f" (Hm0 below {most:.3g} m, a quarter of a spacing), and nothing in the case moves it"
+        )
 
 
 def _peak_period(seen):
