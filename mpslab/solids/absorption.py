@@ -67,7 +67,7 @@ def absorbing(case, paddle):
         room < case.tank.length,
         "wavemaker.room",
         maker.room,
-        f"< tank.length = {case.tank.length:g} m; 0 takes {ROOM:g} strokes, "
+        f"< tank.length = {case.tank.length:g} m; 0 takes {ROOM:g} times the longest stroke, "
         f"{ROOM * (paddle.farthest - paddle.backmost):.4g} m",
     )
     window = WINDOW * case.particles.spacing
