@@ -9,7 +9,8 @@ import pytest
 from tanks import make_case, open_tables
 
 import mpslab
-from mpslab import tank
+from mpslab import sea, tank
+from mpslab.analysis.pictures import draw_run
 from mpslab.analysis.results import Frames, Run
 from mpslab.core.particles import make_particles
 from mpslab.output import journal, vtkhdf
@@ -182,6 +183,28 @@ def test_tables_and_records_that_are_damaged_are_refused_in_one_line(copy):
         assert one_line(caught)
 
 
+@pytest.mark.parametrize(
+    ("spoil", "why"),
+    [
+        (lambda content: b"\xff\xfe" + content, "codec can't decode byte"),
+        (lambda content: content.decode().encode("utf-16"), "codec can't decode byte"),
+        (lambda content: content + b"1" * 200_000 + b"\n", "field larger than"),
+        (lambda content: content.replace(b"toe", b"other"), "case.toml differ: other, toe"),
+        (lambda content: content.replace(b"time", b"tome"), "one of them be time or step"),
+        (lambda content: content.replace(b"toe", b"time"), "headings must differ"),
+    ],
+)
+def test_gauges_that_are_damaged_are_named_by_all_that_read_them(copy, spoil, why, capsys):
+    path = copy / "gauges.csv"
+    path.write_bytes(spoil(path.read_bytes()))
+    for read in (lambda: mpslab.open_run(copy).gauges, lambda: draw_run(copy)):
+        with pytest.raises(ValueError, match=r"gauges\.csv': cannot be read as a table") as caught:
+            read()
+        assert one_line(caught) and why in str(caught.value)
+    assert sea.main([str(copy)]) == 2
+    assert "gauges.csv': cannot be read as a table" in capsys.readouterr().err
+
+
 # What goes on, or was cut off
 
 
@@ -316,3 +339,11 @@ def test_a_run_that_check_refuses_says_so(tmp_path):
     Simulation(case, tmp_path / "run").run()
     record = json.loads((tmp_path / "run" / "run.json").read_text())
     assert record["preflight"] == {"refused": str(caught.value)}
+
+
+def test_resume_names_a_table_that_is_damaged(copy):
+    path = copy / "gauges.csv"
+    path.write_bytes(b"\xff" + path.read_bytes())
+    with pytest.raises(ValueError, match=r"gauges\.csv': cannot be read as a table") as caught:
+        Simulation.resume(copy, {"time.end": 0.06})
+    assert one_line(caught)

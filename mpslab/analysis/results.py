@@ -133,7 +133,7 @@ class Run:
     @cached_property
     def gauges(self):
         """Water levels, (n,): field "time" [s] and one field [m] for each gauge, NaN if dry."""
-        return self._series("gauges", ["time", *self._instruments("gauge")])
+        return self._readings("gauges", ["time", *self._instruments("gauge")])
 
     @cached_property
     def probes(self):
@@ -141,7 +141,7 @@ class Run:
         v", "NAME w" [m/s]; NaN in the air.
         """
         read = [f"{p} {q}" for p in self._instruments("probe") for q in columns.PROBE_QUANTITIES]
-        return self._series("probes", ["time", *read])
+        return self._readings("probes", ["time", *read])
 
     @cached_property
     def phases(self):
@@ -182,18 +182,32 @@ class Run:
     def _instruments(self, kind):
         return [instrument["name"] for instrument in self.tables.get(kind, ())]
 
+    def _readings(self, table, headings):
+        """Rows of a table of instruments, which must be those of the case."""
+        found = self._series(table, headings)
+        differ = set(map(_name, headings)) ^ set(found.dtype.names)
+        if len(found) and differ:
+            path, which = self.folder / f"{table}.csv", ", ".join(sorted(differ))
+            raise ValueError(
+                f"'{path}': cannot be read as a table of this run (its columns and those of "
+                f"case.toml differ: {which})"
+            )
+        return found
+
     def _series(self, table, headings):
         """Rows of a table; no rows, with these headings, if there is no table yet."""
         path = self.folder / f"{table}.csv"
+        header, *rows = read_rows(path) or [headings]
         try:
-            header, *rows = read_rows(path) or [headings]
             cells = [*zip(*rows, strict=True)] or [()] * len(header)
             found = {}
             for heading, entries in zip(header, cells, strict=True):
                 name = _name(heading)
                 found[name] = _column(entries, name in WORDS.get(table, ()),
                                       name in LISTS.get(table, ()))  # fmt: skip
-        except (OSError, ValueError) as error:
+            if len(found) < len(header) or not {"time", "step"} & set(found):
+                raise ValueError("its headings must differ, and one of them be time or step")
+        except ValueError as error:
             raise ValueError(f"'{path}': cannot be read as a table of a run ({error})") from error
         series = np.empty(len(rows), [(n, c.dtype, c.shape[1:]) for n, c in found.items()])
         for name, column in found.items():

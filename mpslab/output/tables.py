@@ -14,12 +14,16 @@ def read_rows(path):
     """Whole rows of a table, its header first; none if there is no file.
 
     A last line without its end is left out: it is being written, or a kill has cut it short.
+
+    Raises ValueError, with the path, if the file cannot be read, or is no text in columns.
     """
     try:
         with path.open(newline="", encoding="utf-8") as file:
             return [row for row in csv.reader(line for line in file if line.endswith("\n")) if row]
     except FileNotFoundError:
         return []
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise ValueError(f"'{path}': cannot be read as a table of a run ({error})") from error
 
 
 def read_table(path):
