@@ -3,8 +3,10 @@
 import pytest
 
 import mpslab
+from mpslab.core import motion_file
 from mpslab.core.keys import CaseError
 from mpslab.run.preflight import preflight
+from mpslab.solids.wavemakers import _record
 
 BLOCK = {"shape": "polygon", "points": [[0.25, 0.05], [0.35, 0.05], [0.35, 0.15], [0.25, 0.15]]}
 
@@ -153,3 +155,25 @@ def test_water_inside_a_solid_is_refused(tmp_path, edge):
     with pytest.raises(CaseError, match=r"^solid = \['solid-1'\]: must be .*room for water"):
         load(tmp_path, solid, water=[box])
     load(tmp_path, solid, water=[{**box, "to": [0.335, 0.0, 0.171]}])
+
+
+@pytest.mark.parametrize("kind", ["solid", "frame", "wavemaker"])
+def test_a_file_of_motion_is_read_once_until_it_changes(tmp_path, monkeypatch, kind):
+    file = tmp_path / "motion.csv"
+    file.write_text("time,x\n0,0\n0.1,0.005\n0.2,0\n", encoding="utf-8")
+    solid = [{**BLOCK, "motion": "file", "motion_file": str(file)}] if kind == "solid" else []
+    changes = {f"{kind}.type": "file", f"{kind}.file": str(file)} if not solid else {}
+    opened = []
+
+    def watched(path, *arguments, **options):
+        opened.append(path == str(file))
+        return open(path, *arguments, **options)
+
+    for module in (motion_file, _record):
+        monkeypatch.setattr(module, "open", watched, raising=False)
+    preflight(load(tmp_path, *solid, **changes))
+    preflight(load(tmp_path, *solid, **changes))
+    assert opened == [True]
+    file.write_text("time,x\n0,0\n0.1,never\n0.2,0\n", encoding="utf-8")
+    with pytest.raises(ValueError, match="never"):
+        preflight(load(tmp_path, *solid, **changes))

@@ -57,6 +57,18 @@ def is_file(path):
         return False
 
 
+def stamp(path):
+    """What tells one content of a file from another: its time and size, None if there is no file.
+
+    Who keeps what a file held keeps it by path and stamp.
+    """
+    try:
+        found = os.stat(path)
+    except (OSError, ValueError):
+        return None
+    return found.st_mtime_ns, found.st_size
+
+
 def remove_drafts(folder):
     """Remove what kills have left of `replacing` in a folder that nobody writes to."""
     for path in Path(folder).iterdir():

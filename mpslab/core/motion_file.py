@@ -1,10 +1,11 @@
 """Motions in the plane x-z from CSV files, those of a tank and of solids alike."""
 
 import csv
+from functools import lru_cache
 
 import numpy as np
 
-from mpslab.core.files import is_file
+from mpslab.core.files import is_file, stamp
 from mpslab.core.keys import CaseError, require
 from mpslab.core.motion import Table
 
@@ -29,10 +30,11 @@ def read(path, key, center):
         If the file cannot be read, or is no such table.
     """
     require(is_file(path), key, path, "a CSV file that exists")
-    return Table(*_table(path, f"{key} = {str(path)!r}"), center)
+    return Table(*_table(path, f"{key} = {str(path)!r}", stamp(path)), center)
 
 
-def _table(path, where):
+@lru_cache(maxsize=8)
+def _table(path, where, _):
     """Times (n,) [s] and values (n, 3) [m], [m], [rad] of a file."""
     try:
         with open(path, newline="", encoding="utf-8-sig") as stream:

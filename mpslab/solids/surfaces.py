@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mpslab.core.files import is_file
+from mpslab.core.files import is_file, stamp
 from mpslab.core.keys import CaseError, require
 from mpslab.later import Later, scipy
 
@@ -73,7 +73,7 @@ def read(path, key):
             f"{key} = {path!r}: must wait until {error.name} is installed: {INSTALL}"
         ) from None
     try:
-        return _read(path, Path(path).stat().st_mtime_ns)
+        return _read(path, stamp(path))
     except (ValueError, OSError, KeyError, IndexError, TypeError) as error:
         reason = " ".join(str(error).split()) or type(error).__name__
         raise CaseError(f"{key} = {path!r}: cannot be read as triangles ({reason})") from error

@@ -6,8 +6,11 @@ import os
 import re
 from array import array
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
+
+from mpslab.core.files import stamp
 
 MOST_ROWS = 50_000
 MOST_BYTES = 20_000_000
@@ -61,6 +64,11 @@ def read(path, columns=MOTION) -> Record:
     two rows or too many, names other units, has a value that is not a finite number, or
     times that do not increase.
     """
+    return _read(path, columns, stamp(path))
+
+
+@lru_cache(maxsize=4)
+def _read(path, columns, _):
     where = f"wavemaker.file = {str(path)!r}"
     lines = _lines(path, where)
     separator = _separator(lines)
@@ -81,6 +89,7 @@ def read(path, columns=MOTION) -> Record:
         raise ValueError(f"{where}: has {len(times)} rows of numbers; must have 2 or more")
     values = np.where(np.abs(values) < FINEST, 0.0, values)
     _require_increasing(times, [line for line, _ in lines], columns[0], where)
+    times.flags.writeable = values.flags.writeable = False  # for all that read the file again
     return Record(where, times, values, 10.0**-digits, lines[0][0])
 
 
