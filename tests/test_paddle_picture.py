@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from mpslab import cases, tank
-from mpslab.analysis import paddle_picture
+from mpslab.analysis import paddle_picture, tank_picture
 from mpslab.core.keys import CaseError
 from mpslab.run.preflight import preflight
 from mpslab.theory import waves
@@ -37,6 +38,41 @@ def test_check_draws_the_tank_with_its_solids(width, tmp_path):
     assert tank.main([str(tmp_path / "case.toml"), "--check", "--draw", str(path)]) == 0
     assert path.with_stem("tank-tank").stat().st_size > 10_000
     assert not path.exists()  # there is no wavemaker
+
+
+def drawn(monkeypatch, module, case, path):
+    """The axes of a picture."""
+    figures = []
+
+    class Kept(Figure):
+        def savefig(self, *arguments, **options):
+            figures.append(self)
+
+    monkeypatch.setattr(module, "Figure", Kept)
+    module.draw(case, path)
+    return figures[0].axes
+
+
+@pytest.mark.parametrize("name", ["irregular_waves", "regular_waves"])
+def test_every_line_of_the_spectrum_is_named(monkeypatch, name):
+    lower = drawn(monkeypatch, paddle_picture, cases.load_case(name), "none.png")[-1]
+    names = [text.get_text() for text in lower.get_legend().get_texts()]
+    assert names == ["of the motion", "asked for"][: len(lower.lines)] and names
+
+
+@pytest.mark.parametrize("name", ["floating_box", "cylinder_in_waves"])
+def test_still_water_is_drawn_beside_the_solids_alone(monkeypatch, name):
+    case = cases.load_case(name)
+    for axes in drawn(monkeypatch, tank_picture, case, "none.png"):
+        if axes.get_ylabel() != "z [m]":
+            continue
+        line = next(line for line in axes.lines if len(line.get_xdata()) > 2)
+        faces = axes.collections[0].get_offsets()
+        middle, half = 0.5 * (faces[:, 0].min() + faces[:, 0].max()), 0.5 * np.ptp(faces[:, 0])
+        off = np.abs(line.get_xdata() - middle) - half
+        hidden = np.isnan(line.get_ydata())
+        assert hidden[off < -case.particles.spacing].all() and not hidden[off > 1e-6].any()
+        assert axes.get_ylim()[1] > faces[:, 1].max()
 
 
 def test_where_there_is_nothing_to_draw_it_is_refused(tmp_path, capsys):

@@ -15,7 +15,7 @@ from mpslab.analysis import headings, pictures, snapshots
 from mpslab.analysis import panels as panels_of
 from mpslab.analysis.results import Frames, open_run
 from mpslab.core.kinds import DUMMY, FLUID, GATE, GATE_DUMMY, WALL
-from mpslab.core.particles import make_particles
+from mpslab.core.particles import FIRST_SOLID, make_particles
 from mpslab.output import vtkhdf
 from mpslab.output.run_folder import RunFolder
 
@@ -317,3 +317,20 @@ def test_solver_names_every_limit_that_held(folder, case):
     legend = figure.axes[1].get_legend()
     assert [text.get_text() for text in legend.get_texts()] == ["growth", "maximum", "courant"]
     assert sum(len(points.get_offsets()) for points in figure.axes[1].collections) == 1000
+
+
+def test_bodies_are_drawn_whole_and_the_still_water_beside_them():
+    ring = [(x, z) for x in (0.3, 0.5) for z in np.arange(0.05, 0.3, 0.01)]
+    water = [(x, 0.05) for x in np.arange(0.05, 1.0, 0.1)]
+    gate = [(0.8, 0.6)]
+    x, z = np.array(ring + water + gate).T
+    body = np.array([FIRST_SOLID + 1] * len(ring) + [0] * len(water) + [FIRST_SOLID])
+    kind = np.array([WALL] * len(ring) + [FLUID] * len(water) + [GATE])
+    piece = snapshots.Slice(0.0, kind, x, z, None, body=body)
+    top = snapshots._box([piece], {"particles": {"spacing": 0.01}})[1][1]
+    assert 0.29 < top < 0.4  # the body is whole, and the gate is not
+    along = np.array([0.1, 0.29, 0.31, 0.4, 0.49, 0.51])
+    held = piece.inside(along, 0.1, 0.01)
+    assert held.tolist() == [False, False, True, True, True, False]
+    assert not piece.inside(along, 0.4, 0.01).any()  # the body is below
+    assert not snapshots.Slice(0.0, kind, x, z, None).inside(along, 0.1, 0.01).any()

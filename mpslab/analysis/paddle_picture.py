@@ -46,11 +46,11 @@ def draw(case, path):
         middle.sharex(upper)
         frequency, density = spectrum(times, place, case.tank.paddle_depth, case.fluid.gravity)
         shown = frequency <= HIGHEST / period if period else frequency <= 20.0 / end
-        lower.plot(frequency[shown], 1e6 * density[shown], color="C2")
+        lower.plot(frequency[shown], 1e6 * density[shown], color="C2", label="of the motion")
         if case.wavemaker.type == "irregular" and case.wavemaker.spectrum in spectra.NAMES:
             lower.plot(frequency[shown], 1e6 * _asked(case, frequency[shown]), "k--",
                        label="asked for")  # fmt: skip
-            lower.legend()
+        lower.legend()
         lower.set(xlabel="frequency [Hz]", ylabel="waves [mm$^2$/Hz]")
         figure.savefig(path)
 

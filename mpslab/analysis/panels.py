@@ -147,7 +147,7 @@ def draw_panels(slices, case, box, title, field):
     axes = axes.ravel()
     for ax, piece in zip(axes, slices, strict=False):
         water = draw_slice(ax, piece, case, scale, size)
-        draw_still_water(ax, case)
+        draw_still_water(ax, case, piece)
         ax.set(xlim=box[0], ylim=box[1], aspect="equal", xlabel="x [m]", ylabel="z [m]")
         ax.set_title(f"t = {piece.time:.3f} s", loc="left")
         ax.label_outer()
@@ -261,8 +261,11 @@ def _draw_discs(ax, piece, mask, size, **colour):
     return ax.add_collection(discs)
 
 
-def draw_still_water(ax, case):
-    """The still-water line up to the shore, where the tank was filled to its still depth."""
+def draw_still_water(ax, case, piece=None):
+    """The still-water line up to the shore, where the tank was filled to its still depth.
+
+    With a slice, `mpslab.analysis.snapshots.Slice`, it leaves out the bodies that stand in it.
+    """
     depth = still_level(case)
     if depth is None:
         return
@@ -273,5 +276,7 @@ def draw_still_water(ax, case):
     if boxes:
         ends = [(box["from"][0], box["to"][0]) for box in boxes]
         wet &= np.any([(low <= along) & (along <= high) for low, high in ends], axis=0)
+    if piece is not None:
+        wet &= ~piece.inside(along, depth, case["particles"]["spacing"])
     level = np.where(wet, depth, np.nan)
     ax.plot(along, level, **STILL_WATER)

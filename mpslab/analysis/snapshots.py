@@ -6,7 +6,7 @@ import numpy as np
 
 from mpslab.analysis.overturning import COLUMN, find_front
 from mpslab.analysis.panels import draw_panels
-from mpslab.core.kinds import FLUID
+from mpslab.core.kinds import FLUID, GATE, GATE_DUMMY
 from mpslab.core.particles import FIRST_SOLID
 
 PICTURES = 6
@@ -41,6 +41,25 @@ class Slice:
     def fluid(self):
         """Mask of the fluid particles, (n,) bool."""
         return self.kind == FLUID
+
+    @property
+    def of_bodies(self):
+        """Mask of the particles of solids other than tank, piston and gates, (n,) bool."""
+        if self.body is None:
+            return np.zeros(len(self.x), bool)
+        return (self.body >= FIRST_SOLID) & ~np.isin(self.kind, (GATE, GATE_DUMMY))
+
+    def inside(self, along, level, spacing):
+        """Whether places x (m,) [m] at a level [m] are in a solid of `of_bodies`, (m,) bool.
+
+        A solid is taken to be whole from its first to its last particle near the level.
+        """
+        held = np.zeros(len(along), bool)
+        near = self.of_bodies & (np.abs(self.z - level) < spacing)
+        for body in np.unique(self.body[near]) if near.any() else ():
+            x = self.x[near & (self.body == body)]
+            held |= (along > x.min() - 0.5 * spacing) & (along < x.max() + 0.5 * spacing)
+        return held
 
     def apart(self, spacing):
         """Fluid that is neither above nor below a solid other than tank and piston, (n,) bool.
@@ -153,15 +172,16 @@ def _moment(fronts):
 
 
 def _box(slices, case):
-    """Limits ((x, x), (z, z)) that hold the walls in x, and obstacles and water in z.
+    """Limits ((x, x), (z, z)) that hold the walls in x, and obstacles, bodies and water in z.
 
-    High spray does not count.
+    High spray does not count, and a gate is cut off when it is lifted.
     """
     spacing = case["particles"]["spacing"]
     x = np.concatenate([piece.x for piece in slices])
     bottom = min(piece.z.min() for piece in slices)
     water = [np.quantile(piece.z[piece.fluid], 0.999) for piece in slices]
-    top = max([*water, *(box["to"][2] for box in case.get("obstacle", ()))])
+    bodies = [piece.z[piece.of_bodies].max(initial=bottom) for piece in slices]
+    top = max([*water, *bodies, *(box["to"][2] for box in case.get("obstacle", ()))])
     return (x.min() - spacing, x.max() + spacing), (bottom - spacing, top + 4 * spacing)
 
 

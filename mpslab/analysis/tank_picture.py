@@ -8,11 +8,12 @@ from matplotlib.figure import Figure
 
 from mpslab.analysis.pictures import STYLE
 from mpslab.core.lattice import effective_length
-from mpslab.solids import shaped
+from mpslab.solids import obstacles, shaped
 
 DOT = 4.0  # points^2 of a place on a face
 WIDE = 9.0  # inches
 TALLEST = 12.0  # inches
+FINE, COARSE = 600, 60  # places where the still water is looked at, along the view and into it
 
 
 def draw(case, path):
@@ -45,12 +46,15 @@ def _view(case, axes, view, extent):
     along, down = view
     index = ["xyz".index(axis) for axis in view]
     for number, given in enumerate(case.solid):
-        axes.scatter(*shaped.faces(case, number)[:, index].T, s=DOT, label=given.name, zorder=3)
+        label = given.name if view == "xz" else None
+        axes.scatter(*shaped.faces(case, number)[:, index].T, s=DOT, label=label, zorder=3)
     if view == "xz":
         x, z = np.array(case.tank.bed).T
         axes.fill_between(x, z, min(z.min(), 0.0) - 0.03 * extent["z"], color="0.7")
     if down == "z" and not case.water:
-        axes.axhline(case.tank.depth, color="C0", lw=0.8, zorder=1)
+        at, wet = _surface(case, index[0], extent)
+        level = np.where(wet, case.tank.depth, np.nan)
+        axes.plot(at, level, color="C0", lw=0.8, zorder=1)
     for box in case.water:
         low, high = (np.array(corner)[index] for corner in (box.start, box.end))
         axes.add_patch(matplotlib.patches.Rectangle(low, *(high - low), color="C0", alpha=0.2))
@@ -61,3 +65,19 @@ def _view(case, axes, view, extent):
         axes.axhline(0.0, color="k", lw=0.8)
         axes.axhline(extent["y"], color="k", lw=0.8)
     axes.set(xlabel=f"{along} [m]", ylabel=f"{down} [m]", aspect="equal")
+
+
+def _surface(case, axis, extent):
+    """Places along an axis, and where nothing hides the still water that is seen there, (n,) each.
+
+    Seen from the side, that is where none of it is in a solid.
+    """
+    count = [FINE, COARSE if case.dim == 3 else 1] if axis == 0 else [COARSE, FINE]
+    x, y = (np.linspace(0.0, extent[name], n) for name, n in zip("xy", count, strict=True))
+    places = np.stack(np.meshgrid(x, y, [case.tank.depth], indexing="ij"), axis=-1)[:, :, 0]
+    flat = places.reshape(-1, 3)
+    hidden = shaped.holds(case, flat) | obstacles.holds(case, flat)
+    wet = case.tank.bed_height(flat[:, 0]) < case.tank.depth
+    other = 1 - axis
+    hidden, wet = (mask.reshape(places.shape[:2]) for mask in (hidden, wet))
+    return (x, y)[axis], wet.any(axis=other) & ~hidden.any(axis=other)

@@ -184,7 +184,6 @@ class _InPlane:
         ax.yaxis.set_major_locator(MaxNLocator(max(int(middle / 40), 2)))
         ax.set_xlabel("x [m]", labelpad=1, **TEXT)
         ax.set_ylabel("z [m]", **TEXT)
-        draw_still_water(ax, shot.case)
         points = 0.72 * across / (right - left)  # a unit is 0.72 points: the page has 9.6 inches
         self.size = disc_size(shot.case["particles"]["spacing"], points)
 
@@ -193,10 +192,11 @@ class _InPlane:
         (left, right), _ = shot.box
         near = np.abs(frame["position"][:, 0] - 0.5 * (left + right)) < 0.5 * (right - left)
         frame = {name: rows[near] for name, rows in frame.items()}
-        for discs in list(self.ax.collections):
-            discs.remove()
+        for drawn in [*self.ax.collections, *self.ax.lines]:
+            drawn.remove()
         piece = middle_slice(time, frame, spacing, 0.0)
         draw_slice(self.ax, piece, shot.case, shot.scale, self.size)
+        draw_still_water(self.ax, shot.case, piece)
         return self.sheet.image(time)
 
 
