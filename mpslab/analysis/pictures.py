@@ -14,6 +14,7 @@ COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#0
 STYLE = {
     "font.size": 12,
     "axes.titlesize": 12,
+    "axes.titley": 1.0,  # else matplotlib lays out all text to find the place of each title
     "figure.titlesize": 13,
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -24,6 +25,7 @@ STYLE = {
     "savefig.bbox": "tight",
 }
 NAMES = ("tank", "pressure", "breaker", "gauges", "probes", "energy", "solver")
+PACKED = 1  # of a PNG: a fifth larger than at 6, in half the time
 RESOLUTIONS = range(160, 60, -10)  # of pictures in documents, dots an inch
 MEDIAN = 3  # readings whose median a reading is compared with
 LIMITS = 1.8  # [inch] beside the panels, for the names of the limits of the time step
@@ -59,7 +61,7 @@ def draw_run(folder):
     with matplotlib.rc_context(STYLE | {"savefig.bbox": "standard"}):
         for name, figure in _figures(run):
             drawn.append(target / f"{name}.png")
-            figure.savefig(drawn[-1])
+            figure.savefig(drawn[-1], pil_kwargs={"compress_level": PACKED})
     for path in {target / f"{name}.png" for name in NAMES} - set(drawn):
         path.unlink(missing_ok=True)
     return drawn
