@@ -58,6 +58,7 @@ class Neighbourhood:
         self.stencil = stencil
         self.particles, self.members = no_particles(), None
         self.offset, self.inverse = np.empty((0, 4), np.float32), np.empty(0, np.float32)
+        self._straight = self.offset
         self._behind = np.empty(0, np.int32)
 
     def measure(self, particles, neighbors, loaded=None, smooth=False):
@@ -78,12 +79,12 @@ class Neighbourhood:
         self.particles, self.row = particles, neighbors.indptr
         loaded = particles.carries_pressure if loaded is None else loaded
         self.loaded = loaded.astype(np.uint8)
-        self._make_room(pairs, int(np.diff(self.row).max(initial=0)))
+        self._make_room(pairs, int(np.diff(self.row).max(initial=0)), smooth)
         self.other, self.solid = neighbors.indices, np.empty(n, np.int32)
         self.position = padded(particles.position)
         self.first, self.second = np.empty((n, 4)), np.empty((n, 3, 4))
         self.smooth = smooth
-        self.straight = np.empty_like(self.offset) if smooth else self.offset
+        self.straight = self._straight if smooth else self.offset
         measure.measure(
             self.position, particles.role, self.row, self.other, self.stencil, smooth, self.solid,
             self._behind, self.offset, self.straight, self.inverse, self.first, self.second,
@@ -106,12 +107,14 @@ class Neighbourhood:
         self._correction = self._lean = self._beside = self._disorder = None
         return self
 
-    def _make_room(self, pairs, longest):
+    def _make_room(self, pairs, longest, smooth):
         """Memory is kept from step to step: to fetch new pages costs more than to write to them."""
         if len(self.inverse) < pairs + LANES:
             room = int(1.2 * pairs) + LANES
             self.offset = np.zeros((room, 4), np.float32)
             self.inverse = np.zeros(room, np.float32)
+        if smooth and len(self._straight) < len(self.offset):
+            self._straight = np.empty_like(self.offset)
         if len(self._behind) < longest:
             self._behind = np.empty(2 * longest, np.int32)
 
