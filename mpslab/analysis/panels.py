@@ -261,10 +261,10 @@ def _draw_discs(ax, piece, mask, size, **colour):
     return ax.add_collection(discs)
 
 
-def draw_still_water(ax, case, piece=None):
+def draw_still_water(ax, case, piece):
     """The still-water line up to the shore, where the tank was filled to its still depth.
 
-    With a slice, `mpslab.analysis.snapshots.Slice`, it leaves out the bodies that stand in it.
+    It leaves out the bodies of a slice, `mpslab.analysis.snapshots.Slice`, that stand in it.
     """
     depth = still_level(case)
     if depth is None:
@@ -276,7 +276,6 @@ def draw_still_water(ax, case, piece=None):
     if boxes:
         ends = [(box["from"][0], box["to"][0]) for box in boxes]
         wet &= np.any([(low <= along) & (along <= high) for low, high in ends], axis=0)
-    if piece is not None:
-        wet &= ~piece.inside(along, depth, case["particles"]["spacing"])
+    wet &= ~piece.inside(along, depth, case["particles"]["spacing"])
     level = np.where(wet, depth, np.nan)
     ax.plot(along, level, **STILL_WATER)
