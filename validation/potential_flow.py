@@ -10,7 +10,6 @@ from functools import cache
 import numpy as np
 
 ORDER, MODES = 7, 64
-WAVES = 512  # modes of a train in a long period
 STEPS = 400  # of time, a period
 STEEP_ORDER, STEEP_MODES = 5, 16  # of a wave at a wall, which with more of them breaks up
 
@@ -62,7 +61,7 @@ def wall_force(amplitude, length, depth, gravity, frequency, periods):
     count = round(periods * STEPS)
     found = np.zeros((count + 1, 4))
     for n in range(count + 1):
-        rise = _rates(state, k, depth, gravity, 1.0, STEEP_ORDER)[0, 0]
+        rise = _rates(state, k, depth, gravity, STEEP_ORDER)[0, 0]
         found[n] = state[0, 0], *_at_wall(*state, k, depth), state[1, 0] * rise
         state = _runge_kutta(state, dt, k, depth, gravity, order=STEEP_ORDER)
     level, whole, speed, carried = found.T
@@ -90,51 +89,9 @@ def _at_wall(eta, phi, k, depth):
     return half @ potential, half @ (0.5 * speed**2)
 
 
-@cache
-def train(amplitude, length, depth, gravity, start, end, step, grown, places):
-    """Waves along x that linear theory would bring to a crest at x = 0, t = 0.
-
-    They begin as linear theory has them, long before; what is nonlinear grows with the share
-    1 - exp(-(t / grown)^4), so that no free waves come with it (Dommermuth 2000, Wave Motion 32).
-
-    Parameters
-    ----------
-    amplitude : tuple of float [m]
-        Of the wave numbers 2 pi n / length, n = 0, 1, ...
-    length : float [m]
-        Period along x.
-    depth, gravity : float [m], [m/s2]
-    start, end, step : float [s]
-        Times, and the time step.
-    grown : float [s]
-    places : tuple of float [m]
-
-    Returns
-    -------
-    time : (n,) float64 [s]
-    level : (n, places) float64 [m]
-    """
-    x = length / (2 * WAVES) * np.arange(2 * WAVES)
-    k = 2.0 * np.pi / length * np.arange(WAVES + 1)
-    rate = np.sqrt(gravity * k * np.tanh(k * depth))
-    waves = np.zeros(WAVES + 1, complex)
-    waves[: len(amplitude)] = amplitude
-    waves *= WAVES * np.exp(-1j * rate * start)
-    speed = np.divide(gravity, rate, out=np.zeros_like(rate), where=rate > 0.0)
-    state = np.array([np.fft.irfft(waves, len(x)), np.fft.irfft(-1j * speed * waves, len(x))])
-    times = start + step * np.arange(round((end - start) / step) + 1)
-    seen = np.exp(1j * np.outer(k, places)) / WAVES
-    levels = np.zeros((len(times), len(places)))
-    for n, time in enumerate(times):
-        levels[n] = np.real(np.fft.rfft(state[0]) @ seen)
-        share = 1.0 - math.exp(-(((time - start) / grown) ** 4))
-        state = _runge_kutta(state, step, k, depth, gravity, share)
-    return times, levels
-
-
-def _runge_kutta(state, dt, k, depth, gravity, share=1.0, order=ORDER):
+def _runge_kutta(state, dt, k, depth, gravity, order=ORDER):
     def rates(state):
-        return _rates(state, k, depth, gravity, share, order)
+        return _rates(state, k, depth, gravity, order)
 
     first = rates(state)
     second = rates(state + 0.5 * dt * first)
@@ -143,20 +100,14 @@ def _runge_kutta(state, dt, k, depth, gravity, share=1.0, order=ORDER):
     return state + dt / 6.0 * (first + 2.0 * second + 2.0 * third + fourth)
 
 
-def _rates(state, k, depth, gravity, share, order):
-    """Rates of the elevation and of the potential at the surface, (2, n), without aliases.
-
-    share : of what is nonlinear in them
-    """
+def _rates(state, k, depth, gravity, order):
+    """Rates of the elevation and of the potential at the surface, (2, n), without aliases."""
     eta, phi = state
     w = _vertical_velocity(eta, phi, k, depth, order)
     eta_x, phi_x = _filtered(eta, 1j * k), _filtered(phi, 1j * k)
     steep = 1.0 + eta_x**2
     rates = steep * w - eta_x * phi_x, -gravity * eta - 0.5 * phi_x**2 + 0.5 * steep * w**2
-    linear = _derivative(phi, 1, k, depth), -gravity * eta
-    return np.array([
-        _filtered(one + share * (rate - one), 1.0) for rate, one in zip(rates, linear, strict=True)
-    ])  # fmt: skip
+    return np.array([_filtered(rate, 1.0) for rate in rates])
 
 
 def _vertical_velocity(eta, phi, k, depth, order):

@@ -5,17 +5,14 @@ from types import SimpleNamespace
 import numpy as np
 
 from mpslab.analysis.reflection import separate
-from mpslab.theory import dispersion, spectra
-from validation import potential_flow
+from mpslab.theory import dispersion
+from validation import potential_tank
 from validation.comparison import Comparison
 
 WINDOW = 3.5  # periods to either side of the focus
 ENDS = 0.1  # share of the window in which readings fade in and out
 AROUND = 0.7  # wavelengths and periods within which the focus is looked for
 POINTS = 141  # each way; looked at twice, the second time around the best
-PERIOD = 24  # wavelengths after which the waves of the potential flow come again
-COUNT = 400  # wave numbers of its spectrum
-BEFORE, AFTER, STEPS, GROWN = 12, 3, 80, 4  # peak periods; steps in each
 
 
 def compare(runs):
@@ -64,25 +61,10 @@ def _of_run(run):
 
 
 def _of_potential_flow(run):
-    """The same waves in fully nonlinear potential flow, at the same gauges."""
-    maker, depth, gravity = run.case.wavemaker, run.depth, run.gravity
-    x = np.array([gauge.x for gauge in run.case.gauge]) - maker.place
-    (peak,) = dispersion.wave_numbers(np.array([2.0 * np.pi / maker.period]), depth, gravity)
-    length, period = PERIOD * 2.0 * np.pi / peak, maker.period
-    k = 2.0 * np.pi / length * np.arange(COUNT)
-    rate = np.sqrt(gravity * k * np.tanh(k * depth))
-    share = rate * period / (2.0 * np.pi)
-    within = (share >= maker.band[0]) & (share <= maker.band[1])
-    amplitude = np.zeros(COUNT)
-    amplitude[within] = np.gradient(rate, k)[within] * spectra.density(
-        maker.spectrum, share[within] / period, maker.height, period, maker.gamma, depth, gravity
-    )
-    amplitude *= maker.amplitude / amplitude.sum()
-    times, levels = potential_flow.train(
-        tuple(amplitude), length, depth, gravity, -BEFORE * period, AFTER * period,
-        period / STEPS, GROWN * period, tuple(x),
-    )  # fmt: skip
-    return _focus(times, levels, x, run)
+    """What the same piston makes in fully nonlinear potential flow, at the same gauges."""
+    maker, x = run.case.wavemaker, np.array([gauge.x for gauge in run.case.gauge])
+    times, levels = potential_tank.levels(run.case, x)
+    return _focus(times - maker.time, levels, x - maker.place, run)
 
 
 def _focus(times, levels, x, run):

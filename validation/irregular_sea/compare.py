@@ -7,6 +7,7 @@ from mpslab.analysis.reflection import separate
 from mpslab.analysis.spectrum import Spectrum
 from mpslab.theory import schaffer, spectra
 from mpslab.theory.dispersion import wave_numbers
+from validation import potential_tank
 from validation.comparison import Comparison, rms
 
 MEAN_OF = 5  # components that make a bin of the spectrum
@@ -17,29 +18,35 @@ CONFIDENCE = 0.95
 def compare(runs):
     """Height, periods and spectrum of the first run; long waves of all."""
     result = Comparison()
-    seas = {name: _Sea(run) for name, run in runs.items()}
-    main = next(iter(seas.values()))
-    result.measure("height", main.height / main.maker.height)
+    seas = {name: _of_run(run) for name, run in runs.items()}
+    first = next(iter(seas))
+    main, maker, ideal = seas[first], seas[first].maker, _in_potential_flow(runs[first])
+    result.measure("height", main.height / maker.height)
+    result.measure("height_in_flow", main.height / ideal.height)
     result.measure("mean_period", main.mean_period / main.asked_mean_period)
-    result.measure("peak", (main.peak - main.maker.period) * main.bin * main.peak**-2)
+    result.measure("peak", (main.peak - maker.period) * main.bin * main.peak**-2)
     low, high = main.spectrum.band(CONFIDENCE)
     result.measure("inside", np.mean((low <= main.asked) & (main.asked <= high)))
-    result.measure("level", 100.0 * max(main.levels, key=abs) / main.run.depth)
+    result.measure("level", 100.0 * max(main.levels, key=abs) / runs[first].depth)
     if "first-order" in seas:
         free = seas["second-order"].free_long / seas["first-order"].free_long
         result.measure("long_waves", free)
-    _draw(result, seas, main)
+    _tell(result, {**seas, f"{first}, potential flow": ideal}, runs)
+    _draw(result, main, ideal, runs)
     return result
 
 
-def _draw(result, seas, main):
+def _tell(result, seas, runs):
     columns = ["run", "Hm0 [mm]", "Kr", "Tp [s]", "Tm-1,0 [s]", "asked for [s]",
                "long waves, rms [mm]", "bound ones by theory [mm]", "the rest [mm]"]  # fmt: skip
     result.table("Incident waves", columns, [
-        [name, 1e3 * sea.height, sea.kr, sea.peak, sea.mean_period, sea.asked_mean_period,
-         1e3 * sea.long, 1e3 * sea.bound_long, 1e3 * sea.free_long]
+        [name, 1e3 * sea.height, _reflected(runs.get(name)), sea.peak, sea.mean_period,
+         sea.asked_mean_period, 1e3 * sea.long, 1e3 * sea.bound_long, 1e3 * sea.free_long]
         for name, sea in seas.items()
     ])  # fmt: skip
+
+
+def _draw(result, main, ideal, runs):
     figure = result.figure("Spectrum of the incident waves", "f Tp", "S / (Hm0^2 Tp)")
     scale = main.maker.height**2 * main.maker.period
     share = main.spectrum.frequency * main.maker.period
@@ -47,19 +54,46 @@ def _draw(result, seas, main):
     figure.band("95 % confidence", share, *(edge / scale for edge in edges))
     figure.line("measured", share, main.spectrum.density / scale)
     figure.dashed("asked for", share, main.asked / scale)
-    for name, sea in seas.items():
-        figure = result.figure(f"Level at x = {sea.x[0]:g} m, {name}", "t / Tp", "level / Hm0")
-        time, level = sea.run.gauge(sea.run.case.gauge[0].name)
-        figure.line("level", time / sea.maker.period, (level - sea.run.depth) / sea.maker.height)
+    figure.dashed("potential flow", share, ideal.spectrum.density / scale)
+    for name, run in runs.items():
+        gauge, maker = run.case.gauge[0], run.case.wavemaker
+        figure = result.figure(f"Level at x = {gauge.x:g} m, {name}", "t / Tp", "level / Hm0")
+        time, level = run.gauge(gauge.name)
+        figure.line("level", time / maker.period, (level - run.depth) / maker.height)
+
+
+def _of_run(run):
+    levels = np.stack([run.gauge(gauge.name)[1] for gauge in run.case.gauge], axis=1)
+    return _Sea(run.case, run.gauges["time"], levels - run.depth)
+
+
+def _in_potential_flow(run):
+    """The sea that the same piston makes in fully nonlinear potential flow."""
+    return _Sea(run.case, *potential_tank.levels(run.case, [gauge.x for gauge in run.case.gauge]))
+
+
+def _reflected(run):
+    """Kr of a run; NaN for none."""
+    if run is None:
+        return np.nan
+    end = run.case.time.end
+    return seastate.analyse(run, end - run.case.wavemaker.record, end).reflection.kr_primary
 
 
 class _Sea:
-    """The waves of one record.
+    """The waves of the last record of a case.
+
+    Parameters
+    ----------
+    case : mpslab.core.parameters.Case
+    time : (n,) float64 [s]
+    levels : (n, gauges) float64 [m]
+        Above still water.
 
     Attributes
     ----------
-    height, kr, peak, mean_period : float [m], [-], [s], [s]
-        Hm0, Kr, Tp and Tm-1,0 of the incident waves.
+    height, peak, mean_period : float [m], [s], [s]
+        Hm0, Tp and Tm-1,0 of the incident waves.
     spectrum : mpslab.analysis.spectrum.Spectrum
         Of the incident waves.
     asked, asked_mean_period : (n,) float64 [m2 s], float [s]
@@ -70,36 +104,27 @@ class _Sea:
         Root mean square of the long waves, of the bound ones by theory, and of their difference.
     """
 
-    def __init__(self, run):
-        self.run, self.maker = run, run.case.wavemaker
-        self.x = np.array([gauge.x for gauge in run.case.gauge])
+    def __init__(self, case, time, levels):
+        self.maker, self.depth, self.gravity = case.wavemaker, case.tank.depth, case.fluid.gravity
+        self.x = np.array([gauge.x for gauge in case.gauge])
         record, period = self.maker.record, self.maker.period
-        self.start = run.case.time.end - record
-        series = self._series()
+        count = round(record / case.output.gauge_interval)
+        times = case.time.end - record + record / count * np.arange(count)
+        series = 2.0 / count * np.fft.rfft(
+            np.stack([np.interp(times, time, level) for level in levels.T], axis=1), axis=0
+        )  # fmt: skip
+        series[0] *= 0.5  # complex amplitudes of all multiples of 1 / record (n, gauges) [m]
         self.levels = series[0].real
         self.bin = MEAN_OF / record
         self._waves(series, record, period)
-        found = seastate.analyse(run, self.start, run.case.time.end)
-        self.kr = found.reflection.kr_primary
         self._long_waves(series, record, period)
-
-    def _series(self):
-        """Complex amplitudes of all multiples of 1 / record at the gauges (n, gauges) [m]."""
-        count = round(self.maker.record / self.run.case.output.gauge_interval)
-        times = self.start + self.maker.record / count * np.arange(count)
-        levels = np.stack([
-            np.interp(times, *self.run.gauge(gauge.name)) for gauge in self.run.case.gauge
-        ], axis=1) - self.run.depth  # fmt: skip
-        found = 2.0 / count * np.fft.rfft(levels, axis=0)
-        found[0] *= 0.5
-        return found
 
     def _waves(self, series, record, period):
         low, high = self.maker.band
         first, last = np.ceil(low * record / period), np.floor(high * record / period)
         number = np.arange(int(first), int(last) + 1)
         self.frequency = number / record
-        k = wave_numbers(2.0 * np.pi * self.frequency, self.run.depth, self.run.gravity)
+        k = wave_numbers(2.0 * np.pi * self.frequency, self.depth, self.gravity)
         incident = separate(series[number].T, self.x, k)[0]
         variance = 0.5 * np.abs(incident) ** 2
         wanted = self._asked(self.frequency) / record
@@ -115,9 +140,9 @@ class _Sea:
 
     def _asked(self, frequency):
         """The spectrum asked for, with all of its variance within the band."""
-        maker, run = self.maker, self.run
+        maker = self.maker
         density = spectra.density(maker.spectrum, frequency, maker.height, maker.period,
-                                  maker.gamma, run.depth, run.gravity)  # fmt: skip
+                                  maker.gamma, self.depth, self.gravity)  # fmt: skip
         return density * (maker.height**2 / 16.0 * maker.record / density.sum())
 
     def _long_waves(self, series, record, period):
@@ -127,7 +152,7 @@ class _Sea:
         sea = series[first : first + len(self.frequency)]
 
         def pair(one, other, sign):
-            return schaffer.bound_wave(one, other, sign, self.run.depth, self.run.gravity)
+            return schaffer.bound_wave(one, other, sign, self.depth, self.gravity)
 
         bound = np.stack([
             schaffer.of_pairs(waves, first, step, pair)[part] for waves in sea.T

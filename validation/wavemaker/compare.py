@@ -1,11 +1,12 @@
-"""The waves that the piston makes against the theories it follows."""
+"""The waves that the piston makes against those of fully nonlinear potential flow."""
 
 import numpy as np
 from scipy.optimize import curve_fit
 
 from mpslab.analysis.harmonics import harmonics
 from mpslab.theory import waves
-from validation.comparison import Comparison
+from validation import potential_tank
+from validation.comparison import Comparison, rms
 
 PERIODS = 2  # that harmonics are taken over
 SETTLE = 1.5  # periods after the soft start until the wave is steady where it has come
@@ -26,16 +27,23 @@ def _compare_regular(result, runs):
     for name, run in runs.items():
         maker, (gauge,) = run.case.wavemaker, run.case.gauge
         time, level = run.gauge(gauge.name)
+        ideal_time, ideal = potential_tank.levels(run.case, [gauge.x])
         period, height = maker.period, maker.height
         speed = waves.group_celerity(period, run.depth, run.gravity)
         came = maker.start + SETTLE * period + gauge.x / speed
-        found = harmonics(time, level - run.depth, period, came, PERIODS)
-        figure.line(name.replace("-", " = "), time / period, (level - run.depth) / height)
-        rows.append([name, 1e3 * height, 2e3 * abs(found[1]), 2.0 * abs(found[1]) / height])
+        seen, theory = (
+            2.0 * np.abs(harmonics(*readings, period, came, PERIODS)[1:3]) / height
+            for readings in ((time, level - run.depth), (ideal_time, ideal[:, 0]))
+        )
+        label = name.replace("-", " = ")
+        figure.line(label, time / period, (level - run.depth) / height)
+        figure.dashed(f"{label}, potential flow", ideal_time / period, ideal[:, 0] / height)
+        rows.append([name, 1e3 * height, *seen, *theory, seen[0] / theory[0]])
     worst = max((row[-1] for row in rows), key=lambda ratio: abs(np.log(ratio)))
-    result.measure("biesel", worst)
-    columns = ["run", "asked for [mm]", "twice the first harmonic [mm]", "ratio"]
-    result.table("Biesel's transfer function", columns, rows)
+    result.measure("first_harmonic", worst)
+    columns = ["run", "H asked for [mm]", "twice the first harmonic / H", "the second",
+               "potential flow: the first", "the second", "first over that"]  # fmt: skip
+    result.table("Harmonics one wavelength from the piston", columns, rows)
 
 
 def _compare_solitary(result, runs):
@@ -43,76 +51,92 @@ def _compare_solitary(result, runs):
     figure = result.figure(
         "Solitary wave, 20 depths from the piston", "c (t - t_crest) / d", "level / H"
     )
-    found = {name: _Solitary(run) for name, run in runs.items()}
-    name = min(found, key=lambda name: found[name].spacing)
-    finest = found[name]
-    for wave in found.values():
+    ideal = _in_potential_flow(next(iter(runs.values())))
+    found = sorted((_of_run(run) for run in runs.values()), key=lambda wave: -wave.spacing)
+    rows = []
+    for wave in found:
+        theory = np.interp(wave.x, ideal.x, ideal.level)
         figure.line(wave.label, wave.x, wave.level)
-    figure.dashed("sech^2", finest.x, finest.theory)
-    held = {name: wave.hold(result) for name, wave in found.items()}
-    result.measure("solitary_height", finest.height)
-    result.measure("solitary_speed", finest.speed)
-    result.measure("solitary_shape", 100.0 * finest.shape)
-    result.measure("solitary_at", 100.0 * held[name]["rms error"])
+        late = wave.celerity * (wave.took("5d", "20d") - ideal.took("5d", "20d"))
+        held = result.hold(f"{wave.label}: level 20 d from the piston, timed by the crest at 5 d, "
+                           "against potential flow [H], [d / c]",
+                           wave.x + late, wave.level, wave.x, theory)  # fmt: skip
+        rows.append([
+            wave.label, *(wave.heights[g] / ideal.heights[g] for g in ideal.heights),
+            ideal.took("10d", "20d") / wave.took("10d", "20d"),
+            100.0 * rms(wave.level - theory), 100.0 * held["rms error"],
+        ])  # fmt: skip
+    figure.dashed("potential flow", ideal.x, ideal.level)
+    *_, height, speed, shape, timed = rows[-1]
+    result.measure("solitary_height", height)
+    result.measure("solitary_speed", speed)
+    result.measure("solitary_shape", shape)
+    result.measure("solitary_at", timed)
     if len(found) > 1:
         result.converge(
-            "Height of the solitary wave lost from 10 to 20 depths, over that asked for",
-            [wave.spacing for wave in found.values()],
-            [wave.lost for wave in found.values()],
+            "Height lost from 10 to 20 depths, less that in potential flow, over that asked for",
+            [wave.spacing for wave in found],
+            [wave.lost - ideal.lost for wave in found],
         )
-    places = [gauge.name for gauge in next(iter(runs.values())).case.gauge]
-    columns = ["run", *(f"height at {g}" for g in places), "speed ratio", "shape [% of H]"]
-    result.table("Solitary wave over theory", columns, [
-        [wave.label, *wave.heights, wave.speed, 100.0 * wave.shape] for wave in found.values()
-    ])  # fmt: skip
+    columns = ["run", *(f"height at {g}" for g in ideal.heights), "speed",
+               "rms difference [% of H]", "timed by the crest at 5 d"]  # fmt: skip
+    result.table("Solitary wave over that in potential flow", columns, rows)
+
+
+def _of_run(run):
+    return _Solitary(run, {gauge.name: run.gauge(gauge.name) for gauge in run.case.gauge})
+
+
+def _in_potential_flow(run):
+    length = 2.0 * np.pi / waves.solitary_wave_number(run.case.wavemaker.height, run.depth)
+    period = length / waves.solitary_celerity(run.case.wavemaker.height, run.depth, run.gravity)
+    gauges = run.case.gauge
+    time, level = potential_tank.levels(run.case, [gauge.x for gauge in gauges], period)
+    readings = [(time, run.depth + one) for one in level.T]
+    return _Solitary(run, dict(zip([gauge.name for gauge in gauges], readings, strict=True)))
 
 
 class _Solitary:
-    """The solitary wave of a run, 20 depths from the piston.
+    """A solitary wave as the gauges of a run see it.
+
+    Parameters
+    ----------
+    run : validation.run.Run
+    readings : dict of str to ((n,) float64 [s], (n,) float64 [m])
+        Time and level, by gauge.
 
     Attributes
     ----------
     spacing : float [m]
-    heights : list of float
-        At the gauges, over the height asked for.
-    height, speed : float
-        At 20 depths, and from 10 to 20 depths, over those of theory.
+    label : str
+    celerity : float [depths/s]
+        Of theory, by which times are told as ways.
+    heights : dict of str to float
+        By gauge, over the height asked for.
     lost : float
-        Height lost from 10 to 20 depths, over that asked for.
-    shape : float
-        Rms difference from sech^2 of its own height, over that.
-    x, level, theory : (n,) float
-        Way of the crest since it passed [depths], level over the height asked for, and sech^2.
-    late : float
-        How far the crest is behind that of theory which passed 5 depths with it [depths].
+        From 10 to 20 depths, over the height asked for.
+    x, level : (n,) float64
+        Way of the crest since it passed 20 depths [depths], and the level there over the height
+        asked for.
     """
 
-    def __init__(self, run):
-        self.spacing, depth = run.spacing, run.depth
-        asked = run.case.wavemaker.height
+    def __init__(self, run, readings):
+        self.spacing, depth, asked = run.spacing, run.depth, run.case.wavemaker.height
         self.label = f"standard, d0 = d / {depth / run.spacing:.0f}"
         celerity = waves.solitary_celerity(asked, depth, run.gravity)
-        gauges = [gauge.name for gauge in run.case.gauge]
-        crests = {name: _crest(*run.gauge(name), depth, asked, celerity) for name in gauges}
-        self.heights = [top / asked for _, top in crests.values()]
-        moment, top = crests["20d"]
-        self.height = top / asked
-        self.lost = (crests["10d"][1] - top) / asked
-        self.speed = 10.0 * depth / (moment - crests["10d"][0]) / celerity
-        time, level = run.gauge("20d")
-        x = celerity * (time - moment)
+        crests = {name: _crest(*one, depth, asked, celerity) for name, one in readings.items()}
+        self._moments = {name: moment for name, (moment, _) in crests.items()}
+        self.heights = {name: top / asked for name, (_, top) in crests.items()}
+        self.lost = self.heights["10d"] - self.heights["20d"]
+        self.celerity = celerity / depth
+        time, level = readings["20d"]
+        x = celerity * (time - self._moments["20d"])
         near = np.abs(x) < REACH / waves.solitary_wave_number(asked, depth)
-        level = level[near] - depth
-        own = waves.solitary_elevation(x[near], top, depth)
-        self.shape = np.sqrt(np.mean((level - own) ** 2)) / top
-        self.x, self.level = x[near] / depth, level / asked
-        self.theory = waves.solitary_elevation(x[near], asked, depth) / asked
-        self.late = celerity * (moment - crests["5d"][0]) / depth - 15.0
+        self.x, self.level = x[near] / depth, (level[near] - depth) / asked
 
-    def hold(self, result):
-        """Against sech^2 of the height asked for, timed by the crest at 5 depths; the errors."""
-        label = f"{self.label}: level 20 d from the piston against sech^2 [H], [d / c]"
-        return result.hold(label, self.x + self.late, self.level, self.x, self.theory)
+    def took(self, first, second):
+        """Time from one gauge to another [s]."""
+        return self._moments[second] - self._moments[first]
 
 
 def _crest(time, level, depth, asked, celerity):
