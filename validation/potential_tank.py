@@ -20,7 +20,7 @@ COLUMNS = 120  # intervals to a wavelength of the peak
 STEPS = 80  # to a period of the peak
 ACROSS = 5  # nodes of a difference along the tank
 SMOOTHED = 0.2  # share of what alternates from node to node that a step takes away
-STRENGTH = 2.0  # of the sponge, in angular frequencies of the peak
+STRENGTH = 1.0  # of the sponge, in angular frequencies of the peak
 ACCURATE = 1e-6
 
 
