@@ -13,6 +13,7 @@ from scipy.interpolate import CubicSpline
 from scipy.sparse.linalg import LinearOperator, gmres, splu
 
 from mpslab.core import plugins
+from mpslab.theory import waves
 from mpslab.theory.dispersion import wave_numbers
 
 LAYERS = 9  # nodes over the depth
@@ -64,6 +65,12 @@ def levels(case, places, period=None):
         found[n] = CubicSpline(tank.x(time), tank.level)(places)
         tank.advance(time, step)
     return times, found
+
+
+def solitary_period(height, depth, gravity):
+    """What stands for the period [s] of a solitary wave: in it there is all of the wave but 1 %."""
+    length = 2.0 * np.pi / waves.solitary_wave_number(height, depth)
+    return length / waves.solitary_celerity(height, depth, gravity)
 
 
 class Tank:

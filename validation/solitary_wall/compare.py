@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from mpslab.theory import waves
+from validation import potential_tank
 from validation.comparison import Comparison
 
 DATA = Path(__file__).parent / "data" / "chan_street1970_solitary_wall_runup.csv"
@@ -20,7 +21,8 @@ def compare(runs):
     rows = {name: _row(name, run) for name, run in runs.items()}
     judged = [row[-1] for name, row in rows.items() if name not in BESIDE]
     result.measure("runup", max(judged, key=lambda ratio: abs(np.log(ratio))))
-    columns = ["run", "H/d asked for", "H/d measured", "R/d", "theory", "ratio"]
+    columns = ["run", "H/d asked for", "H/d measured", "R/d", "in potential flow", "theory",
+               "over theory"]  # fmt: skip
     result.table("Run-up", columns, list(rows.values()))
     _converge(result, {name: (runs[name].spacing, rows[name][-1]) for name in runs})
     _draw_runup(result, rows)
@@ -36,7 +38,8 @@ def _row(name, run):
     """Line of the table of run-ups."""
     asked, height = run.case.wavemaker.height / run.depth, _incident(run)[1] / run.depth
     runup = _runup(run) / run.depth
-    return [name, asked, height, runup, _theory(height), runup / _theory(height)]
+    ideal = _in_potential_flow(run)
+    return [name, asked, height, runup, ideal, _theory(height), runup / _theory(height)]
 
 
 def _label(name):
@@ -93,6 +96,13 @@ def _incident(run):
     at_wall = time[np.argmax(run.gauge("wall")[1])]
     top = np.argmax(np.where(time < at_wall - 0.3 * way / speed, level, -np.inf))
     return time[top], level[top] - run.depth
+
+
+def _in_potential_flow(run):
+    """Run-up over depth of the wave that the same piston makes in potential flow."""
+    (wall,) = (gauge for gauge in run.case.gauge if gauge.name == "wall")
+    period = potential_tank.solitary_period(run.case.wavemaker.height, run.depth, run.gravity)
+    return potential_tank.levels(run.case, [wall.x], period)[1].max() / run.depth
 
 
 def _runup(run):

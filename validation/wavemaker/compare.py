@@ -88,8 +88,7 @@ def _of_run(run):
 
 
 def _in_potential_flow(run):
-    length = 2.0 * np.pi / waves.solitary_wave_number(run.case.wavemaker.height, run.depth)
-    period = length / waves.solitary_celerity(run.case.wavemaker.height, run.depth, run.gravity)
+    period = potential_tank.solitary_period(run.case.wavemaker.height, run.depth, run.gravity)
     gauges = run.case.gauge
     time, level = potential_tank.levels(run.case, [gauge.x for gauge in gauges], period)
     readings = [(time, run.depth + one) for one in level.T]
