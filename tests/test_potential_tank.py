@@ -83,3 +83,13 @@ def test_water_that_the_piston_displaces_is_found_under_the_surface():
         tank.advance(0.005 * n, 0.005)
     assert _smoothly(0.6) == 0.01
     assert np.trapezoid(tank.level, tank.x(0.6)) == pytest.approx(0.1 * 0.01, rel=1e-3)
+
+
+def test_a_wave_that_breaks_is_refused():
+    def rammed(time, derivative=0):
+        return 1.0 if derivative else time
+
+    tank = potential_tank.Tank(1.0, 0.1, GRAVITY, 150, rammed)
+    with np.errstate(all="ignore"), pytest.raises(ArithmeticError, match="is a wave breaking"):
+        for n in range(100):
+            tank.advance(0.005 * n, 0.005)

@@ -3,8 +3,8 @@
 Zakharov's equations for the level and the potential at the surface, in coordinates that follow the
 piston, x = X + (L - X) xi, and the surface, z = (h + eta) sigma; Laplace's equation in them by
 finite differences (Bingham & Zhang 2007, J. Eng. Math. 58): of fourth order along xi, over all of
-Chebyshev's nodes along sigma. Conjugate residuals (GMRES) solve it, with the tank at rest, which is
-factored once, as the preconditioner.
+Chebyshev's nodes along sigma. GMRES solves it; its preconditioner is the tank at rest, which is
+factored once.
 """
 
 import numpy as np
@@ -23,6 +23,7 @@ ACROSS = 5  # nodes of a difference along the tank
 SMOOTHED = 0.2  # share of what alternates from node to node that a step takes away
 STRENGTH = 1.0  # of the sponge, in angular frequencies of the peak
 ACCURATE = 1e-6
+MOST = 50  # iterations of a solve; it takes some five
 
 
 def levels(case, places, period=None):
@@ -45,6 +46,11 @@ def levels(case, places, period=None):
         From 0 to the end of the case, 80 times to a period.
     level : (n, g) float64 [m]
         Above still water.
+
+    Raises
+    ------
+    ArithmeticError
+        If a wave breaks, which there is no solution for.
     """
     period = period or case.wavemaker.period
     gravity, depth = case.fluid.gravity, case.tank.depth
@@ -167,9 +173,11 @@ class Tank:
         operator = LinearOperator((size, size), lambda values: nearly(equation(values)))
         enough = ACCURATE * np.linalg.norm(nearly(wanted))
         off = nearly(wanted - equation(self.flow))
-        missing, failed = gmres(operator, off, rtol=0.0, atol=enough)
+        missing, failed = gmres(operator, off, rtol=0.0, atol=enough, restart=MOST, maxiter=1)
         if failed:
-            raise ArithmeticError("potential flow in the tank: the solver does not converge")
+            raise ArithmeticError(
+                f"potential flow in the tank: no solution in {MOST} iterations; is a wave breaking?"
+            )
         self.flow += missing.reshape(self.flow.shape)
         return self.flow @ self.up[-1] / height
 
