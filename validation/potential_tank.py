@@ -210,7 +210,7 @@ def _differences(nodes, across):
 
 
 def _smoothed(state):
-    """Values (2, n) without most of what alternates from node to node, by an eighth difference."""
+    """Values (2, n) less a share of what alternates from node to node, by an eighth difference."""
     difference = np.zeros_like(state)
     difference[:, 4:-4] = np.diff(state, 8) / 256.0
     return state - SMOOTHED * difference
