@@ -41,7 +41,7 @@ def standing_wave(amplitude, length, depth, gravity, frequency, periods):
     count = round(periods * STEPS)
     mode = np.zeros(count + 1)
     for n in range(count):
-        state = _runge_kutta(state, dt, k, depth, gravity)
+        state = _advanced(state, dt, k, depth, gravity)
         mode[n + 1] = 2.0 * np.mean(state[0] * np.cos(k[1] * x))
     return dt * np.arange(count + 1), mode
 
@@ -63,7 +63,7 @@ def wall_force(amplitude, length, depth, gravity, frequency, periods):
     for n in range(count + 1):
         rise = _rates(state, k, depth, gravity, STEEP_ORDER)[0, 0]
         found[n] = state[0, 0], *_at_wall(*state, k, depth), state[1, 0] * rise
-        state = _runge_kutta(state, dt, k, depth, gravity, order=STEEP_ORDER)
+        state = _advanced(state, dt, k, depth, gravity, order=STEEP_ORDER)
     level, whole, speed, carried = found.T
     given = np.gradient(whole, dt, edge_order=2) - carried + speed
     return dt * np.arange(count + 1), -given / gravity - 0.5 * level**2
@@ -89,15 +89,18 @@ def _at_wall(eta, phi, k, depth):
     return half @ potential, half @ (0.5 * speed**2)
 
 
-def _runge_kutta(state, dt, k, depth, gravity, order=ORDER):
-    def rates(state):
-        return _rates(state, k, depth, gravity, order)
+def runge_kutta(rates, time, state, step):
+    """The state at time + step, by the method of fourth order; rates(time, state) are its rates."""
+    half = 0.5 * step
+    first = rates(time, state)
+    second = rates(time + half, state + half * first)
+    third = rates(time + half, state + half * second)
+    fourth = rates(time + step, state + step * third)
+    return state + step / 6.0 * (first + 2.0 * second + 2.0 * third + fourth)
 
-    first = rates(state)
-    second = rates(state + 0.5 * dt * first)
-    third = rates(state + 0.5 * dt * second)
-    fourth = rates(state + dt * third)
-    return state + dt / 6.0 * (first + 2.0 * second + 2.0 * third + fourth)
+
+def _advanced(state, dt, k, depth, gravity, order=ORDER):
+    return runge_kutta(lambda _, now: _rates(now, k, depth, gravity, order), 0.0, state, dt)
 
 
 def _rates(state, k, depth, gravity, order):

@@ -7,6 +7,8 @@ Chebyshev's nodes along sigma. GMRES solves it; its preconditioner is the tank a
 factored once.
 """
 
+from functools import cache
+
 import numpy as np
 from scipy import sparse
 from scipy.interpolate import CubicSpline
@@ -14,7 +16,7 @@ from scipy.sparse.linalg import LinearOperator, gmres, splu
 
 from mpslab.core import plugins
 from mpslab.theory import waves
-from mpslab.theory.dispersion import wave_numbers
+from validation.potential_flow import runge_kutta
 
 LAYERS = 9  # nodes over the depth
 COLUMNS = 120  # intervals to a wavelength of the peak
@@ -52,20 +54,25 @@ def levels(case, places, period=None):
     ArithmeticError
         If a wave breaks, which there is no solution for.
     """
-    period = period or case.wavemaker.period
-    gravity, depth = case.fluid.gravity, case.tank.depth
-    rate = 2.0 * np.pi / period
-    (k,) = wave_numbers(np.array([rate]), depth, gravity)
-    columns = int(np.ceil(COLUMNS * case.tank.length * k / (2.0 * np.pi)))
+    return _levels(
+        case.tank, case.fluid.gravity, case.wavemaker, case.sponge, case.time.end, tuple(places),
+        period or case.wavemaker.period,
+    )  # fmt: skip
+
+
+@cache  # the draws of a run have the same piston
+def _levels(basin, gravity, wavemaker, sponges, end, places, period):
+    k = waves.wave_number(period, basin.depth, gravity)
+    columns = int(np.ceil(COLUMNS * basin.length * k / (2.0 * np.pi)))
     step = period / STEPS
-    times = step * np.arange(int(np.ceil(case.time.end / step)) + 1)
+    times = step * np.arange(int(np.ceil(end / step)) + 1)
     fine = 0.25 * step * np.arange(4 * len(times))
-    maker = plugins.load("wavemakers", case.wavemaker.type)
-    paddle = maker.make(case.wavemaker, depth, gravity, case.time.end)
+    maker = plugins.load("wavemakers", wavemaker.type)
+    paddle = maker.make(wavemaker, basin.depth, gravity, end)
     motion = CubicSpline(fine, [paddle.displacement(time) for time in fine])
-    tank = Tank(case.tank.length, depth, gravity, columns, motion)
-    for sponge in case.sponge:
-        tank.swallow(sponge.start, STRENGTH * rate)
+    tank = Tank(basin.length, basin.depth, gravity, columns, motion)
+    for sponge in sponges:
+        tank.swallow(sponge.start, STRENGTH * 2.0 * np.pi / period)
     found = np.zeros((len(times), len(places)))
     for n, time in enumerate(times):
         found[n] = CubicSpline(tank.x(time), tank.level)(places)
@@ -122,13 +129,8 @@ class Tank:
 
     def advance(self, time, step):
         """Take the water from time to time + step [s], by Runge & Kutta's method."""
-        state, half = np.array([self.level, self.potential]), 0.5 * step
-        first = self._rates(time, state)
-        second = self._rates(time + half, state + half * first)
-        third = self._rates(time + half, state + half * second)
-        fourth = self._rates(time + step, state + step * third)
-        state += step / 6.0 * (first + 2.0 * second + 2.0 * third + fourth)
-        self.level, self.potential = _smoothed(state)
+        state = np.array([self.level, self.potential])
+        self.level, self.potential = _smoothed(runge_kutta(self._rates, time, state, step))
 
     def _rates(self, time, state):
         """Rates of level and potential at the nodes, which move with the piston, (2, n)."""

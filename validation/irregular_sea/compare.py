@@ -37,10 +37,11 @@ def compare(runs):
 
 
 def _tell(result, seas, runs):
+    reflected = {name: _kr(run) for name, run in runs.items()}
     columns = ["run", "Hm0 [mm]", "Kr", "Tp [s]", "Tm-1,0 [s]", "asked for [s]",
                "long waves, rms [mm]", "bound ones by theory [mm]", "the rest [mm]"]  # fmt: skip
     result.table("Incident waves", columns, [
-        [name, 1e3 * sea.height, _reflected(runs.get(name)), sea.peak, sea.mean_period,
+        [name, 1e3 * sea.height, reflected.get(name, np.nan), sea.peak, sea.mean_period,
          sea.asked_mean_period, 1e3 * sea.long, 1e3 * sea.bound_long, 1e3 * sea.free_long]
         for name, sea in seas.items()
     ])  # fmt: skip
@@ -72,10 +73,7 @@ def _in_potential_flow(run):
     return _Sea(run.case, *potential_tank.levels(run.case, [gauge.x for gauge in run.case.gauge]))
 
 
-def _reflected(run):
-    """Kr of a run; NaN for none."""
-    if run is None:
-        return np.nan
+def _kr(run):
     end = run.case.time.end
     return seastate.analyse(run, end - run.case.wavemaker.record, end).reflection.kr_primary
 
